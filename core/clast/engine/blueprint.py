@@ -1,0 +1,101 @@
+"""What one scene needs compiled: its parts, and the features that decide what is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from clast.parts.bond_kinematics import BondKinematics
+from clast.parts.bond_model import BondModel
+from clast.parts.contact_law import ContactLaw, Features
+from clast.parts.integrator import Integrator
+from clast.parts.wall import BodyForce, Motion, Wall
+
+
+@dataclass(frozen=True)
+class BondPlan:
+    """How bonds are computed.
+
+    Attributes
+    ----------
+    uniform : tuple of bool
+        For each number of the model's constants, whether all bonds share it.
+    damping, fade : bool
+        Whether dashpots act, and whether breaking bonds let go over several steps.
+    """
+
+    model: BondModel
+    kinematics: BondKinematics
+    uniform: tuple[bool, ...]
+    damping: bool = False
+    fade: bool = False
+
+
+@dataclass(frozen=True)
+class ContactPlan:
+    """How contacts are computed; ``bonded_pairs`` tells whether bonded particles touch too."""
+
+    law: ContactLaw
+    features: Features
+    bonded_pairs: bool = True
+    between_particles: bool = True
+
+
+@dataclass(frozen=True)
+class Blueprint:
+    """Everything the assembler needs to know; run-time numbers are not part of it."""
+
+    integrator: Integrator
+    bonds: BondPlan | None = None
+    contacts: ContactPlan | None = None
+    walls: tuple[Wall, ...] = ()
+    motions: tuple[Motion, ...] = ()
+    body_forces: tuple[BodyForce, ...] = ()
+
+    @property
+    def orientation(self) -> bool:
+        """Whether orientations are integrated."""
+        return self.bonds is not None and self.bonds.kinematics.needs_orientation
+
+    @property
+    def spin(self) -> bool:
+        """Whether particles spin."""
+        return self.bonds is not None or self.friction
+
+    @property
+    def friction(self) -> bool:
+        """Whether contacts slide or roll with resistance."""
+        return self.contacts is not None and (self.contacts.features.sliding or self.contacts.features.rolling)
+
+    @property
+    def bond_velocity(self) -> bool:
+        """Whether bonds see velocities."""
+        return self.bonds is not None and (self.bonds.kinematics.needs_velocity or self.bonds.damping)
+
+    @property
+    def velocity_forces(self) -> bool:
+        """Whether any force depends on velocities."""
+        damped = self.contacts is not None and (self.contacts.features.damping or self.friction)
+        return damped or self.bond_velocity or bool(self.body_forces)
+
+    @property
+    def history(self) -> type | None:
+        """Record that contacts remember, None when they remember nothing."""
+        if self.contacts is None or not self.contacts.features.sliding:
+            return None
+        return self.contacts.law.History
+
+    def functions(self) -> list[Callable[..., Any]]:
+        """Return every function of the parts that is compiled."""
+        found: list[Callable[..., Any] | None] = []
+        if self.bonds is not None:
+            model, kinematics = self.bonds.model, self.bonds.kinematics
+            found += [kinematics.measure, kinematics.end_loads, model.load, model.failure, model.mode, model.energy]
+            found += [model.flow, model.overload, model.on_event]
+        if self.contacts is not None:
+            found += [self.contacts.law.load, self.contacts.law.energy]
+        found += [wall.nearest for wall in self.walls]
+        found += [motion.velocity for motion in self.motions]
+        found += [force.acceleration for force in self.body_forces]
+        return [function for function in found if function is not None]

@@ -1,0 +1,199 @@
+"""Contacts between particles: find the touching pairs, gather them into lanes, apply the law, scatter the loads."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from clast.engine.compiler import inlined, routine
+from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
+from clast.maths.vec3 import ZERO, add, cross, dot, scale, sub
+from clast.parts.contact_law import Touch
+
+from .bond_sweep import put, vector
+from .layout import (
+    CONTACT_F,
+    CONTACT_MI,
+    CONTACT_MJ,
+    CONTACT_REST,
+    DV,
+    IMI,
+    IMJ,
+    INTACT,
+    INVERSE_MASS,
+    LANES,
+    MATERIAL,
+    NORMAL,
+    RADIUS,
+    RI,
+    RJ,
+    WI,
+    WJ,
+    D,
+    F,
+    M,
+    V,
+    W,
+    X,
+)
+from .slots import (
+    BONDED_PAIRS_TOUCH,
+    CONTACT_CONSTANTS,
+    FEATURES,
+    HISTORY,
+    SPIN,
+    VELOCITY_FORCES,
+    carry_history,
+    contact_load,
+    read_contact_constants,
+    read_history,
+    write_history,
+)
+
+HISTORY_BASE = CONTACT_REST + CONTACT_CONSTANTS
+
+
+@inlined
+def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: Floats, lane: int) -> None:
+    """Copy what the law needs of pair k into a lane."""
+    pose, seen = particles.pose, particles.seen
+    i, j = pairs.first[k], pairs.second[k]
+    for c in range(3):
+        scratch[(D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
+    scratch[RI * LANES + lane] = pose[i, RADIUS]
+    scratch[RJ * LANES + lane] = pose[j, RADIUS]
+    scratch[IMI * LANES + lane] = seen[i, INVERSE_MASS]
+    scratch[IMJ * LANES + lane] = seen[j, INVERSE_MASS]
+    if VELOCITY_FORCES:
+        for c in range(3):
+            scratch[(DV + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
+            if SPIN:
+                scratch[(WI + c) * LANES + lane] = seen[i, W + c]
+                scratch[(WJ + c) * LANES + lane] = seen[j, W + c]
+    row = numbers.contact_table[int(seen[i, MATERIAL]), int(seen[j, MATERIAL])]
+    for c in range(CONTACT_CONSTANTS):
+        scratch[(CONTACT_REST + c) * LANES + lane] = row[c]
+    if HISTORY > 0:
+        known = pairs.touching[k] != 0
+        for c in range(3):
+            scratch[(NORMAL + c) * LANES + lane] = pairs.history[k, c] if known else 0.0
+        for c in range(HISTORY):
+            scratch[(HISTORY_BASE + c) * LANES + lane] = pairs.history[k, 3 + c] if known else 0.0
+
+
+@inlined
+def contact_lane(scratch: Floats, lane: int, dt: float, at_contact_point: float) -> None:
+    """Compute the contact of one lane: force on j, moments on both, new history."""
+    d = vector(scratch, D, lane)
+    r_i, r_j = scratch[RI * LANES + lane], scratch[RJ * LANES + lane]
+    distance = sqrt(dot(d, d))
+    n = scale(1.0 / distance, d)
+    overlap = r_i + r_j - distance
+    share = 1.0 / (r_i + r_j)
+    lever_i = r_i - at_contact_point * overlap * r_i * share
+    lever_j = r_j - at_contact_point * overlap * r_j * share
+    velocity, w_i, w_j = ZERO, ZERO, ZERO
+    if VELOCITY_FORCES:
+        velocity = vector(scratch, DV, lane)
+        if SPIN:
+            w_i, w_j = vector(scratch, WI, lane), vector(scratch, WJ, lane)
+            velocity = sub(velocity, cross(add(scale(lever_i, w_i), scale(lever_j, w_j)), n))
+    im_i, im_j = scratch[IMI * LANES + lane], scratch[IMJ * LANES + lane]
+    touch = Touch(
+        overlap=overlap,
+        normal=n,
+        velocity=velocity,
+        spin_i=w_i,
+        spin_j=w_j,
+        radius=r_i * r_j * share,
+        radius_i=r_i,
+        radius_j=r_j,
+        inverse_mass=im_i + im_j,
+        inverse_inertia=2.5 * (im_i / (r_i * r_i) + im_j / (r_j * r_j)),
+    )
+    history = read_history(scratch, HISTORY_BASE, lane)
+    if HISTORY > 0:
+        spin = 0.5 * (dot(w_i, n) + dot(w_j, n)) * dt
+        history = carry_history(history, vector(scratch, NORMAL, lane), n, spin)
+    constants = read_contact_constants(scratch, CONTACT_REST, lane)
+    load, history = contact_load(touch, constants, history, dt, FEATURES)
+    put(scratch, CONTACT_F, lane, load.force)
+    if SPIN:
+        arm = cross(n, load.force)
+        put(scratch, CONTACT_MI, lane, sub(load.torque_i, scale(lever_i, arm)))
+        put(scratch, CONTACT_MJ, lane, sub(load.torque_j, scale(lever_j, arm)))
+    if HISTORY > 0:
+        put(scratch, NORMAL, lane, n)
+        write_history(scratch, HISTORY_BASE, lane, history)
+
+
+@inlined
+def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: int) -> None:
+    """Add a lane's loads to its particles and keep its history."""
+    load = particles.load
+    i, j = pairs.first[k], pairs.second[k]
+    for c in range(3):
+        force = scratch[(CONTACT_F + c) * LANES + lane]
+        load[i, F + c] -= force
+        load[j, F + c] += force
+        if SPIN:
+            load[i, M + c] += scratch[(CONTACT_MI + c) * LANES + lane]
+            load[j, M + c] += scratch[(CONTACT_MJ + c) * LANES + lane]
+    if HISTORY > 0:
+        for c in range(3):
+            pairs.history[k, c] = scratch[(NORMAL + c) * LANES + lane]
+        for c in range(HISTORY):
+            pairs.history[k, 3 + c] = scratch[(HISTORY_BASE + c) * LANES + lane]
+        pairs.touching[k] = 1
+
+
+@inlined
+def separated(particles: Particles, i: int, j: int) -> bool:
+    """Tell whether two particles do not touch."""
+    pose = particles.pose
+    dx = pose[j, X] - pose[i, X]
+    dy = pose[j, X + 1] - pose[i, X + 1]
+    dz = pose[j, X + 2] - pose[i, X + 2]
+    s = pose[i, RADIUS] + pose[j, RADIUS]
+    return dx * dx + dy * dy + dz * dz >= s * s
+
+
+@inlined
+def joined(pairs: Pairs, bonds: Bonds, k: int) -> bool:
+    """Tell whether an intact bond stands in for the contact of pair k."""
+    place = pairs.bond[k]
+    return place >= 0 and bonds.data[place // LANES, INTACT * LANES + place % LANES] == 1.0
+
+
+@routine
+def apply(
+    particles: Particles, pairs: Pairs, active: Indices, count: int, numbers: Numbers, scratch: Floats, dt: float
+) -> None:
+    """Gather, compute and scatter one block of touching pairs."""
+    for lane in range(count):
+        gather(particles, pairs, active[lane], numbers, scratch, lane)
+    for lane in range(count):
+        contact_lane(scratch, lane, dt, numbers.lever)
+    for lane in range(count):
+        scatter(particles, pairs, active[lane], scratch, lane)
+
+
+@routine
+def sweep_contacts(
+    pairs: Pairs, bonds: Bonds, particles: Particles, numbers: Numbers, scratch: Floats, active: Indices, dt: float
+) -> None:
+    """Add the loads of all touching pairs to the particles, in the order of the pairs."""
+    count = 0
+    for k in range(len(pairs.first)):
+        if separated(particles, pairs.first[k], pairs.second[k]):
+            if HISTORY > 0 and pairs.touching[k] != 0:
+                pairs.touching[k] = 0
+            continue
+        if not BONDED_PAIRS_TOUCH and joined(pairs, bonds, k):
+            continue
+        active[count] = k
+        count += 1
+        if count == LANES:
+            apply(particles, pairs, active, count, numbers, scratch, dt)
+            count = 0
+    if count > 0:
+        apply(particles, pairs, active, count, numbers, scratch, dt)

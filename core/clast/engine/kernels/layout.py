@@ -1,0 +1,28 @@
+"""Where things lie: columns of the particle tables, slots of the scratch tables, entries of the clock.
+
+Scratch and bond tables hold *slots* of ``LANES`` numbers each: the value of slot s for lane l is at s * LANES + l.
+"""
+
+LANES = 64
+
+# particle tables: one cache line of eight numbers a particle
+X, RADIUS, Q = 0, 3, 4  # pose: position, radius, orientation (w, x, y, z)
+V, INVERSE_MASS, W, MATERIAL = 0, 3, 4, 7  # twist and seen: velocity, 1/m, angular velocity, material
+INVERSE_INERTIA = 7  # twist only
+F, M = 0, 4  # load and acceleration: force, moment; acceleration, angular acceleration
+
+# bond tables: the first two slots of every bond
+INDEX, INTACT = 0, 1
+BOND_SLOTS = 2
+
+# scratch of the bond sweep
+BOND_D, BOND_QI, BOND_QJ, BOND_V, BOND_WI, BOND_WJ = 0, 3, 7, 11, 14, 17
+BOND_F, BOND_MI, BOND_MJ, OVERLOAD = 20, 23, 26, 29
+
+# scratch of the contact sweep
+D, RI, RJ, DV, WI, WJ, IMI, IMJ, NORMAL = 0, 3, 4, 5, 8, 11, 14, 15, 16
+CONTACT_F, CONTACT_MI, CONTACT_MJ, CONTACT_REST = 19, 22, 25, 28
+
+# clock
+STEP, STAGE, MOVED, PRIMED = 0, 1, 2, 3
+DONE, STALE = 0, 1

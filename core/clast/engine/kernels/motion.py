@@ -1,0 +1,156 @@
+"""Kicks and drifts of particles and walls around a force evaluation."""
+
+from __future__ import annotations
+
+from clast.engine.compiler import inlined, routine
+from clast.engine.state import Numbers, Particles, Walls
+from clast.maths.rotation import turn
+from clast.parts.integrator import Stage
+
+from .layout import INVERSE_INERTIA, INVERSE_MASS, Q, RADIUS, V, W, X, F, M
+from .slots import (
+    BODY_FORCES,
+    ORIENTATION,
+    SPIN,
+    VELOCITY_FORCES,
+    body_acceleration,
+    wall_velocity,
+)
+
+
+@inlined
+def kick(particles: Particles, k: int, time: float) -> None:
+    """Change the velocity and spin of particle k by its acceleration over some time."""
+    twist, acceleration = particles.twist, particles.acceleration
+    for c in range(3):
+        twist[k, V + c] += time * acceleration[k, F + c]
+        if SPIN:
+            twist[k, W + c] += time * acceleration[k, M + c]
+
+
+@inlined
+def drift(particles: Particles, k: int, time: float) -> None:
+    """Move and turn particle k with its velocity and spin over some time."""
+    pose, twist = particles.pose, particles.twist
+    for c in range(3):
+        pose[k, X + c] += time * twist[k, V + c]
+    if ORIENTATION:
+        q = turn(
+            (pose[k, Q], pose[k, Q + 1], pose[k, Q + 2], pose[k, Q + 3]),
+            (twist[k, W], twist[k, W + 1], twist[k, W + 2]),
+            time,
+        )
+        for c in range(4):
+            pose[k, Q + c] = q[c]
+
+
+@inlined
+def predict(particles: Particles, k: int, time: float) -> None:
+    """Set the velocity and spin that the forces on particle k will see."""
+    twist, acceleration, seen = particles.twist, particles.acceleration, particles.seen
+    for c in range(3):
+        seen[k, V + c] = twist[k, V + c] + time * acceleration[k, F + c]
+        if SPIN:
+            seen[k, W + c] = twist[k, W + c] + time * acceleration[k, M + c]
+
+
+@inlined
+def strayed(particles: Particles, k: int, reach2: float) -> bool:
+    """Tell whether particle k is too far from where neighbours were searched, or nowhere."""
+    pose, reference = particles.pose, particles.reference
+    dx = pose[k, X] - reference[k, 0]
+    dy = pose[k, X + 1] - reference[k, 1]
+    dz = pose[k, X + 2] - reference[k, 2]
+    return not dx * dx + dy * dy + dz * dz <= reach2
+
+
+@inlined
+def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers) -> bool:
+    """Kick and drift to the force evaluation, clear loads; tell whether neighbour lists are stale."""
+    dt = numbers.dt
+    stale = False
+    for k in range(len(particles.pose)):
+        if stage.kick_before != 0.0:
+            kick(particles, k, stage.kick_before * dt)
+        if stage.drift_before != 0.0:
+            drift(particles, k, stage.drift_before * dt)
+        if VELOCITY_FORCES:
+            predict(particles, k, stage.predict * dt)
+        for c in range(3):
+            particles.load[k, F + c] = 0.0
+            particles.load[k, M + c] = 0.0
+        if strayed(particles, k, numbers.reach2):
+            stale = True
+    return stale
+
+
+@inlined
+def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> None:
+    """Turn loads and body forces on particle k into accelerations."""
+    twist, load, acceleration = particles.twist, particles.load, particles.acceleration
+    per_mass, per_inertia = twist[k, INVERSE_MASS], twist[k, INVERSE_INERTIA]
+    for c in range(3):
+        acceleration[k, F + c] = per_mass * load[k, F + c]
+        if SPIN:
+            acceleration[k, M + c] = per_inertia * load[k, M + c]
+    if BODY_FORCES and per_mass > 0.0:
+        g = body_acceleration(
+            numbers.body,
+            (particles.pose[k, X], particles.pose[k, X + 1], particles.pose[k, X + 2]),
+            (particles.seen[k, V], particles.seen[k, V + 1], particles.seen[k, V + 2]),
+            time,
+        )
+        for c in range(3):
+            acceleration[k, F + c] += g[c]
+
+
+@inlined
+def move_after_forces(particles: Particles, stage: Stage, numbers: Numbers, time: float) -> None:
+    """Compute accelerations, kick, and drift to the end of the stage."""
+    dt = numbers.dt
+    for k in range(len(particles.pose)):
+        accelerate(particles, k, numbers, time)
+        if stage.kick_after != 0.0:
+            kick(particles, k, stage.kick_after * dt)
+        if stage.drift_after != 0.0:
+            drift(particles, k, stage.drift_after * dt)
+
+
+@routine
+def move_walls(walls: Walls, time: float, drift_time: float) -> None:
+    """Set the walls' velocities and move them over some time; forces on them start anew."""
+    for w in range(len(walls.shape_kind)):
+        v = wall_velocity(walls.motion_kind[w], walls.course[w], time)
+        for c in range(3):
+            walls.velocity[w, c] = v[c]
+            walls.displacement[w, c] += drift_time * v[c]
+
+
+@routine
+def walls_strayed(walls: Walls, reach2: float) -> bool:
+    """Tell whether a wall is too far from where its neighbours were searched."""
+    for w in range(len(walls.shape_kind)):
+        away2 = 0.0
+        for c in range(3):
+            away = walls.displacement[w, c] - walls.reference[w, c]
+            away2 += away * away
+        if not away2 <= reach2:
+            return True
+    return False
+
+
+@routine
+def clear_wall_forces(walls: Walls) -> None:
+    """Forget the forces and moments of the last evaluation."""
+    for w in range(len(walls.shape_kind)):
+        for c in range(3):
+            walls.force[w, c] = 0.0
+            walls.moment[w, c] = 0.0
+
+
+@routine
+def sum_wall_forces(walls: Walls) -> None:
+    """Add the forces of this step to the sum from which means are taken."""
+    for w in range(len(walls.shape_kind)):
+        for c in range(3):
+            walls.force_sum[w, c] += walls.force[w, c]

@@ -1,0 +1,57 @@
+"""What a frame shows of the bonds: computed when asked, at the positions of the full step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from clast.engine.compiler import compiled
+from clast.engine.state import Floats, World
+
+from .bond_sweep import gather, read_motion
+from .layout import INTACT, LANES
+from .slots import (
+    BONDS,
+    bond_energy,
+    bond_failure,
+    bond_flow,
+    bond_load,
+    bond_measure,
+    read_bond_state,
+    read_constants,
+    read_kinematic_state,
+    read_reference,
+    read_uniforms,
+)
+
+
+@compiled
+def observe(world: World, output: Floats) -> None:
+    """Write intactness, normal force, failure index and elastic energy of every bond into ``output``.
+
+    Parameters
+    ----------
+    world : World
+    output : (m, 4) float64
+        Row k belongs to bond number k; broken bonds keep zeros.
+    """
+    if BONDS:
+        bonds, particles = world.bonds, world.particles
+        scratch = np.empty(32 * LANES)
+        uniforms = read_uniforms(world.numbers.bond_uniforms)
+        for b in range(len(bonds.first)):
+            data = bonds.data[b]
+            for lane in range(LANES):
+                if data[INTACT * LANES + lane] != 1.0:
+                    continue
+                gather(particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
+                strain, _, _ = bond_measure(
+                    read_motion(scratch, lane), read_reference(data, lane), read_kinematic_state(data, lane), 0.0
+                )
+                constants = read_constants(uniforms, data, lane)
+                state = bond_flow(strain, constants, read_bond_state(data, lane))
+                load = bond_load(strain, constants, state)
+                row = output[bonds.number[b, lane]]
+                row[0] = 1.0
+                row[1] = load.normal
+                row[2] = bond_failure(strain, load, constants, state)
+                row[3] = bond_energy(strain, constants, state)

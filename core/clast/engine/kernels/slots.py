@@ -1,0 +1,45 @@
+"""What a scene plugs into the step loop. The assembler writes this module anew; here it binds an empty scene."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from clast.engine.compiler import inlined
+from clast.parts.contact_law import Features
+from clast.parts.integrator import Stage
+
+STAGES = (Stage(0.0, 0.5, 0.0, 1.0, 0.5),)
+SPANS = (1.0,)  # time since the last force evaluation, as a fraction of the step
+FEATURES = Features(damping=False, sliding=False, rolling=False)
+
+BONDS = False
+BOND_ORIENTATION = False
+BOND_VELOCITY = False
+BOND_DAMPING = False
+BOND_EVENTS = False
+FADE = False
+CONTACTS = False
+BONDED_PAIRS_TOUCH = True
+WALLS = False
+MOVING_WALLS = False
+BODY_FORCES = False
+ORIENTATION = False
+SPIN = False
+VELOCITY_FORCES = False
+HISTORY = 0
+CONTACT_CONSTANTS = 0
+
+
+@inlined
+def nothing(*args: Any) -> None:
+    """Stand for a part that the scene lacks."""
+    return None
+
+
+bond_measure = bond_end_loads = bond_load = bond_flow = bond_failure = bond_mode = bond_energy = nothing
+bond_overload = bond_on_event = nothing
+read_uniforms = read_reference = read_constants = read_damping = nothing
+read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
+contact_load = contact_energy = read_contact_constants = row_constants = nothing
+read_history = write_history = carry_history = fresh_history = load_history = store_history = nothing
+wall_nearest = wall_velocity = body_acceleration = nothing

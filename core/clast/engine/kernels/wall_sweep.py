@@ -1,0 +1,100 @@
+"""Contacts between particles and walls, one by one: they are few."""
+
+from __future__ import annotations
+
+from clast.engine.compiler import inlined, routine
+from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
+from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
+from clast.parts.contact_law import Touch
+
+from .layout import INVERSE_MASS, MATERIAL, RADIUS, F, M, V, W, X
+from .slots import (
+    FEATURES,
+    HISTORY,
+    SPIN,
+    VELOCITY_FORCES,
+    carry_history,
+    contact_load,
+    fresh_history,
+    load_history,
+    row_constants,
+    store_history,
+    wall_nearest,
+)
+
+
+@inlined
+def row(table: Floats, k: int, column: int) -> Vec:
+    """Read three neighbouring columns of a table."""
+    return (table[k, column], table[k, column + 1], table[k, column + 2])
+
+
+@inlined
+def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec) -> Touch:
+    """Return the contact of particle k (i) with a wall (j)."""
+    seen = particles.seen
+    radius = particles.pose[k, RADIUS]
+    velocity, spin = ZERO, ZERO
+    if VELOCITY_FORCES:
+        velocity = sub(wall_velocity, row(seen, k, V))
+        if SPIN:
+            spin = row(seen, k, W)
+            velocity = sub(velocity, cross(scale(lever, spin), n))
+    per_mass = seen[k, INVERSE_MASS]
+    return Touch(
+        overlap=radius - distance,
+        normal=n,
+        velocity=velocity,
+        spin_i=spin,
+        spin_j=ZERO,
+        radius=radius,
+        radius_i=radius,
+        radius_j=0.0,
+        inverse_mass=per_mass,
+        inverse_inertia=2.5 * per_mass / (radius * radius),
+    )
+
+
+@inlined
+def push(particles: Particles, walls: Walls, k: int, w: int, force: Vec, torque: Vec, lever: float, n: Vec) -> None:
+    """Add a wall contact's loads to particle k and to wall w."""
+    load = particles.load
+    arm = cross(n, force)
+    place = sub(sub(row(particles.pose, k, X), row(walls.displacement, w, 0)), row(walls.centre, w, 0))
+    about = cross((place[0] + lever * n[0], place[1] + lever * n[1], place[2] + lever * n[2]), force)
+    for c in range(3):
+        load[k, F + c] -= force[c]
+        walls.force[w, c] += force[c]
+        walls.moment[w, c] += about[c]
+        if SPIN:
+            load[k, M + c] += torque[c] - lever * arm[c]
+
+
+@routine
+def sweep_walls(
+    walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, dt: float
+) -> None:
+    """Add the loads of all wall contacts to particles and walls, in the order of the pairs."""
+    for p in range(len(pairs.wall)):
+        w, k = pairs.wall[p], pairs.particle[p]
+        x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
+        near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
+        radius = particles.pose[k, RADIUS]
+        if near.distance >= radius:
+            pairs.touching[p] = 0
+            continue
+        n = near.normal
+        lever = radius - numbers.lever * (radius - near.distance)
+        touch = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0))
+        history = fresh_history()
+        if HISTORY > 0 and pairs.touching[p] != 0:
+            spin = 0.5 * dot(touch.spin_i, n) * dt
+            history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
+        constants = row_constants(numbers.contact_table[int(particles.seen[k, MATERIAL]), walls.material[w]])
+        load, history = contact_load(touch, constants, history, dt, FEATURES)
+        push(particles, walls, k, w, load.force, load.torque_i, lever, n)
+        if HISTORY > 0:
+            for c in range(3):
+                pairs.history[p, c] = n[c]
+            store_history(pairs.history[p], history)
+        pairs.touching[p] = 1

@@ -1,0 +1,105 @@
+"""Neighbour lists: when to make them, and how contacts keep their history through it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.engine.kernels.layout import INTACT, INVERSE_MASS, LANES, RADIUS, X
+from clast.engine.state import Bonds, Floats, Integers, Pairs, Particles, WallPairs, Walls
+from clast.parts.neighbour_search import NeighbourSearch
+
+NearestPoint = Callable[[Any, Any], Any]
+
+
+def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: NeighbourSearch, skin: float) -> Pairs:
+    """Return all pairs closer than the skin, with the history of those that were known.
+
+    Pairs of two prescribed particles, and particles that left, are left out: nothing could move them.
+    """
+    here = np.nonzero(particles.present)[0]
+    position = np.ascontiguousarray(particles.pose[here, X : X + 3])
+    reach = particles.pose[here, RADIUS] + 0.5 * skin
+    found = here[search.find_pairs(position, reach).astype(np.int64)].reshape(-1, 2)
+    movable = particles.twist[:, INVERSE_MASS] > 0.0
+    found = found[movable[found].any(axis=1)]
+    touching, history = carried(
+        key(old.first, old.second), old.touching, old.history, key(found[:, 0], found[:, 1])
+    )
+    return Pairs(
+        found[:, 0].astype(np.uint32),
+        found[:, 1].astype(np.uint32),
+        bond_places(bonds, found),
+        touching,
+        history,
+    )
+
+
+def find_wall_pairs(
+    particles: Particles, walls: Walls, old: WallPairs, shapes: Sequence[tuple[NearestPoint, Any]], skin: float
+) -> WallPairs:
+    """Return the particles closer to a wall than the skin, with the history of those that were known.
+
+    Parameters
+    ----------
+    shapes : sequence of (nearest, shape)
+        The function and the numbers of each wall.
+    """
+    found = [np.zeros((0, 2), np.int64)]
+    for w, (nearest, shape) in enumerate(shapes):
+        x = particles.pose[:, X : X + 3] - walls.displacement[w]
+        distance = np.array([nearest(shape, tuple(point)).distance for point in x.tolist()])
+        near = (distance < particles.pose[:, RADIUS] + skin) & (particles.present != 0)
+        near &= particles.twist[:, INVERSE_MASS] > 0.0
+        found.append(np.column_stack([np.full(near.sum(), w), np.nonzero(near)[0]]))
+    table = np.concatenate(found)
+    touching, history = carried(
+        key(old.wall, old.particle), old.touching, old.history, key(table[:, 0], table[:, 1])
+    )
+    return WallPairs(table[:, 0].astype(np.uint32), table[:, 1].astype(np.uint32), touching, history)
+
+
+def key(first: NDArray[Any], second: NDArray[Any]) -> Integers:
+    """Return one rising number for each pair."""
+    return first.astype(np.int64) << 32 | second.astype(np.int64)
+
+
+def carried(
+    old_key: Integers, old_touching: NDArray[np.uint8], old_history: Floats, new_key: Integers
+) -> tuple[NDArray[np.uint8], Floats]:
+    """Return touching flags and history rows of the new pairs, taken from the old ones by their sorted keys."""
+    touching = np.zeros(len(new_key), np.uint8)
+    history = np.zeros((len(new_key), old_history.shape[1]))
+    if len(old_key) > 0:
+        at = np.minimum(np.searchsorted(old_key, new_key), len(old_key) - 1)
+        known = old_key[at] == new_key
+        touching[known] = old_touching[at[known]]
+        history[known] = old_history[at[known]]
+    return touching, history
+
+
+def bond_places(bonds: Bonds, pairs: Integers) -> Integers:
+    """Return where each pair's bond stands in the bond table, −1 for pairs without an intact bond."""
+    place = np.full(len(pairs), -1, np.int64)
+    if len(bonds.first) == 0 or len(pairs) == 0:
+        return place
+    standing = np.nonzero(bonds.data.reshape(len(bonds.first), -1, LANES)[:, INTACT, :].ravel() > 0.0)[0]
+    i, j = bonds.first.ravel()[standing], bonds.second.ravel()[standing]
+    bond_key = key(np.minimum(i, j), np.maximum(i, j))
+    order = np.argsort(bond_key, kind="stable")
+    wanted = key(pairs[:, 0], pairs[:, 1])
+    at = np.minimum(np.searchsorted(bond_key[order], wanted), len(order) - 1)
+    known = bond_key[order][at] == wanted if len(order) else np.zeros(len(pairs), bool)
+    place[known] = standing[order[at[known]]]
+    return place
+
+
+def remember_positions(particles: Particles, walls: Walls) -> None:
+    """Note where everything is, so that the loop can tell when the lists go stale."""
+    particles.reference[:] = particles.pose[:, X : X + 3]
+    walls.reference[:] = walls.displacement
+
+

@@ -1,0 +1,236 @@
+"""Writes the ``slots`` module of one scene: bindings of its laws, and where their numbers lie."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from clast.engine.blueprint import Blueprint, BondPlan
+from clast.engine.kernels.layout import BOND_SLOTS
+from clast.engine.records import construct, destruct, fields, width
+from clast.engine.sources import address
+
+HEADER = '''"""What one scene plugs into the step loop. Written by the assembler; do not edit."""
+from importlib import import_module
+
+from clast.engine.compiler import inlined
+from clast.maths.rotation import IDENTITY, spin_about, swing
+from clast.maths.vec3 import ZERO, add
+from clast.parts.contact_law import Features
+from clast.parts.integrator import Stage
+
+from .layout import LANES
+
+NOTHING = (0.0,)
+
+
+@inlined
+def nothing(*args):
+    return None
+'''
+
+
+def slots_text(plan: Blueprint) -> str:
+    """Return the source of the ``slots`` module for a blueprint."""
+    parts = [HEADER, _flags(plan), _integrator(plan), _bonds(plan), _contacts(plan), _walls(plan), _body(plan)]
+    return "\n\n".join(part.strip("\n") for part in parts) + "\n"
+
+
+def bond_offsets(plan: BondPlan) -> dict[str, int]:
+    """Return the first slot of each record in a bond's table, and their total under ``end``."""
+    sizes = {
+        "reference": width(plan.kinematics.Reference),
+        "constants": sum(not shared for shared in plan.uniform),
+        "damping": 4 if plan.damping else 0,
+        "kinematic_state": width(plan.kinematics.State),
+        "state": width(plan.model.State),
+    }
+    offsets, at = {}, BOND_SLOTS
+    for name, size in sizes.items():
+        offsets[name] = at
+        at += size
+    return offsets | {"end": at}
+
+
+def _flags(plan: Blueprint) -> str:
+    bonds, contacts = plan.bonds, plan.contacts
+    values = {
+        "BONDS": bonds is not None,
+        "BOND_ORIENTATION": plan.orientation,
+        "BOND_VELOCITY": plan.bond_velocity,
+        "BOND_DAMPING": bonds is not None and bonds.damping,
+        "BOND_EVENTS": bonds is not None and bonds.model.on_event is not None,
+        "FADE": bonds is not None and bonds.fade,
+        "CONTACTS": contacts is not None and contacts.between_particles,
+        "BONDED_PAIRS_TOUCH": bonds is None or (contacts is not None and contacts.bonded_pairs),
+        "WALLS": bool(plan.walls),
+        "BODY_FORCES": bool(plan.body_forces),
+        "ORIENTATION": plan.orientation,
+        "SPIN": plan.spin,
+        "VELOCITY_FORCES": plan.velocity_forces,
+        "HISTORY": width(plan.history),
+        "CONTACT_CONSTANTS": 0 if contacts is None else width(contacts.law.Constants),
+    }
+    return "\n".join(f"{name} = {value!r}" for name, value in values.items())
+
+
+def _integrator(plan: Blueprint) -> str:
+    stages = plan.integrator.stages
+    spans = [stages[k].drift_before + stages[k - 1].drift_after for k in range(len(stages))]
+    return f"STAGES = {tuple(stages)!r}\nSPANS = {tuple(spans)!r}"
+
+
+def _bind(name: str, item: Callable[..., Any] | type | None) -> str:
+    if item is None:
+        return f"{name} = nothing"
+    module, qualified = (item.__module__, item.__qualname__) if isinstance(item, type) else address(item)
+    return f"{name} = import_module({module!r}).{qualified}"
+
+
+def _function(name: str, arguments: str, body: str | Sequence[str]) -> str:
+    lines = [body] if isinstance(body, str) else list(body) or ["pass"]
+    return "\n".join(["", "@inlined", f"def {name}({arguments}):", *(f"    {line}" for line in lines)])
+
+
+def _lane(slot: int) -> str:
+    return f"data[{slot} * LANES + lane]"
+
+
+def _reader(name: str, record: type | None, alias: str, first: int) -> str:
+    if record is None:
+        return _function(name, "data, lane", "return None")
+    values = [_lane(first + k) for k in range(width(record))]
+    return _function(name, "data, lane", f"return {construct(record, alias, values)}")
+
+
+def _writer(name: str, record: type | None, first: int) -> str:
+    numbers = [] if record is None else destruct(record, "record")
+    return _function(name, "data, lane, record", [f"{_lane(first + k)} = {text}" for k, text in enumerate(numbers)])
+
+
+def _bonds(plan: Blueprint) -> str:
+    if plan.bonds is None:
+        names = "measure end_loads load flow failure mode energy overload on_event".split()
+        readers = "uniforms reference constants damping kinematic_state bond_state".split()
+        lines = [f"bond_{name} = nothing" for name in names] + [f"read_{name} = nothing" for name in readers]
+        return "\n".join([*lines, "write_kinematic_state = write_bond_state = nothing"])
+    bonds, at = plan.bonds, bond_offsets(plan.bonds)
+    model, kinematics = bonds.model, bonds.kinematics
+    lines = [
+        _bind("bond_measure", kinematics.measure),
+        _bind("bond_end_loads", kinematics.end_loads),
+        *(_bind(f"bond_{name}", getattr(model, name)) for name in ("load", "failure", "mode", "energy")),
+        _bind("bond_overload", model.overload),
+        _bind("bond_on_event", model.on_event),
+        _bind("Reference", kinematics.Reference),
+        _bind("KinematicState", kinematics.State),
+        _bind("BondConstants", model.Constants),
+        _bind("BondState", model.State),
+        _bind("bond_flow", model.flow)
+        if model.flow
+        else _function("bond_flow", "strain, constants, state", "return state"),
+        _reader("read_reference", kinematics.Reference, "Reference", at["reference"]),
+        _reader("read_kinematic_state", kinematics.State, "KinematicState", at["kinematic_state"]),
+        _writer("write_kinematic_state", kinematics.State, at["kinematic_state"]),
+        _reader("read_bond_state", model.State, "BondState", at["state"]),
+        _writer("write_bond_state", model.State if model.flow or model.on_event else None, at["state"]),
+        *_bond_constants(bonds, at["constants"]),
+        _function("read_damping", "data, lane", f"return ({', '.join(_lane(at['damping'] + k) for k in range(4))})"),
+    ]
+    return "\n".join(lines)
+
+
+def _bond_constants(bonds: BondPlan, first: int) -> list[str]:
+    values, shared, slot = [], 0, first
+    for uniform in bonds.uniform:
+        values.append(f"uniforms[{shared}]" if uniform else _lane(slot))
+        shared, slot = shared + uniform, slot + (not uniform)
+    reads = ", ".join(f"table[{k}]" for k in range(shared))
+    record = construct(bonds.model.Constants, "BondConstants", values)
+    return [
+        _function("read_uniforms", "table", f"return ({reads},)" if shared else "return NOTHING"),
+        _function("read_constants", "uniforms, data, lane", f"return {record}"),
+    ]
+
+
+def _contacts(plan: Blueprint) -> str:
+    if plan.contacts is None:
+        names = "contact_load contact_energy read_contact_constants row_constants read_history write_history"
+        names += " carry_history fresh_history load_history store_history"
+        return "FEATURES = Features(False, False, False)\n" + " = ".join(names.split()) + " = nothing"
+    law, history = plan.contacts.law, plan.history
+    count = width(law.Constants)
+    in_lane = [f"data[(first + {k}) * LANES + lane]" for k in range(max(count, width(history)))]
+    in_row = [f"row[{k}]" for k in range(count)]
+    lines = [
+        f"FEATURES = {plan.contacts.features!r}",
+        _bind("contact_load", law.load),
+        _bind("contact_energy", law.energy),
+        _bind("ContactConstants", law.Constants),
+        _bind("History", law.History),
+        _function(
+            "read_contact_constants",
+            "data, first, lane",
+            f"return {construct(law.Constants, 'ContactConstants', in_lane)}",
+        ),
+        _function("row_constants", "row", f"return {construct(law.Constants, 'ContactConstants', in_row)}"),
+    ]
+    return "\n".join(lines + _history(law.History, history, in_lane))
+
+
+def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> list[str]:
+    fresh = "None" if declared is None else construct(declared, "History", ["0.0"] * width(declared))
+    lines = [_function("fresh_history", "", f"return {fresh}")]
+    if kept is None:
+        return [
+            *lines,
+            _function("read_history", "data, first, lane", f"return {fresh}"),
+            "write_history = carry_history = load_history = store_history = nothing",
+        ]
+    numbers = destruct(kept, "record")
+    carried = [
+        f"spin_about(swing(record.{field.name}, old, new), new, angle)" if field.size == 3 else f"record.{field.name}"
+        for field in fields(kept)
+    ]
+    rows = [f"row[{3 + k}]" for k in range(len(numbers))]
+    return [
+        *lines,
+        _function("read_history", "data, first, lane", f"return {construct(kept, 'History', in_lane)}"),
+        _function("write_history", "data, first, lane, record", [f"{a} = {b}" for a, b in zip(in_lane, numbers)]),
+        _function("carry_history", "record, old, new, angle", f"return History({', '.join(carried)})"),
+        _function("load_history", "row", f"return {construct(kept, 'History', rows)}"),
+        _function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers)]),
+    ]
+
+
+def _dispatch(name: str, arguments: str, branches: Sequence[str], otherwise: str) -> str:
+    """Return a function that picks a branch by ``kind``; the last branch needs no test."""
+    lines = [line for k, text in enumerate(branches[:-1]) for line in (f"if kind == {k}:", f"    return {text}")]
+    return _function(name, arguments, [*lines, f"return {branches[-1] if branches else otherwise}"])
+
+
+def _walls(plan: Blueprint) -> str:
+    lines, near, course = [], [], []
+    for k, wall in enumerate(plan.walls):
+        values = [f"row[{n}]" for n in range(width(wall.Shape))]
+        lines += [_bind(f"nearest_{k}", wall.nearest), _bind(f"Shape{k}", wall.Shape)]
+        near.append(f"nearest_{k}({construct(wall.Shape, f'Shape{k}', values)}, x)")
+    for k, motion in enumerate(plan.motions):
+        values = [f"row[{n}]" for n in range(width(motion.Course))]
+        lines += [_bind(f"velocity_{k}", motion.velocity), _bind(f"Course{k}", motion.Course)]
+        course.append(f"velocity_{k}({construct(motion.Course, f'Course{k}', values)}, time)")
+    course.append("ZERO")  # walls without a motion stand still
+    lines.append(_dispatch("wall_nearest", "kind, row, x", near, "None"))
+    lines.append(_dispatch("wall_velocity", "kind, row, time", course, "ZERO"))
+    return "\n".join(lines)
+
+
+def _body(plan: Blueprint) -> str:
+    lines, total, at = [], "ZERO", 0
+    for k, force in enumerate(plan.body_forces):
+        values = [f"row[{at + n}]" for n in range(width(force.Numbers))]
+        at += len(values)
+        lines += [_bind(f"acceleration_{k}", force.acceleration), _bind(f"Numbers{k}", force.Numbers)]
+        total = f"add({total}, acceleration_{k}({construct(force.Numbers, f'Numbers{k}', values)}, x, v, time))"
+    lines.append(_function("body_acceleration", "row, x, v, time", f"return {total}"))
+    return "\n".join(lines)

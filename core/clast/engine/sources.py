@@ -1,0 +1,119 @@
+"""Which functions a part consists of, and a digest that changes whenever any of them does.
+
+Compiled code on disk is only right as long as the sources it came from are unchanged. The digest covers the source
+file of every function reachable from a part, and the value of every plain constant those functions read.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from types import CodeType, FunctionType, ModuleType
+from typing import Any
+
+from clast.errors import PluginError
+
+FOREIGN = ("numba", "numpy", "math", "builtins")
+
+
+def names_used(code: CodeType) -> set[str]:
+    """Return the global names a code object and those nested in it refer to."""
+    names = set(code.co_names)
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            names |= names_used(constant)
+    return names
+
+
+def referred(function: FunctionType) -> dict[str, Any]:
+    """Return the global objects a function refers to, by name; those of a module as ``module.name``."""
+    found: dict[str, Any] = {}
+    names = sorted(names_used(function.__code__))
+    for name in names:
+        value = function.__globals__.get(name)
+        if isinstance(value, ModuleType) and value.__name__.split(".")[0] not in FOREIGN:
+            found |= {f"{name}.{inner}": getattr(value, inner) for inner in names if hasattr(value, inner)}
+        elif value is not None:
+            found[name] = value
+    return found
+
+
+def reachable(functions: Iterable[Callable[..., Any]]) -> list[FunctionType]:
+    """Return the given functions and all plain functions they call, each once, callees first."""
+    order: list[FunctionType] = []
+    seen: set[FunctionType] = set()
+
+    def visit(function: Any) -> None:
+        if not isinstance(function, FunctionType) or function in seen:
+            return
+        if function.__module__.split(".")[0] in FOREIGN:
+            return
+        seen.add(function)
+        for target in referred(function).values():
+            visit(target)
+        order.append(function)
+
+    for function in functions:
+        visit(function)
+    return order
+
+
+def address(function: Callable[..., Any]) -> tuple[str, str]:
+    """Return module and name under which a part's function can be imported.
+
+    Raises
+    ------
+    PluginError
+        For lambdas and functions made inside others, which the compiled loop cannot import.
+    """
+    name = getattr(function, "__qualname__", "")
+    if not isinstance(function, FunctionType) or "<" in name:
+        where = getattr(function, "__module__", "?")
+        raise PluginError(
+            f"{where}: {name or function!r} is not a function at the top level of a file; "
+            "write it there with 'def', so that the compiled loop can import it"
+        )
+    return function.__module__, name
+
+
+def constant_text(value: Any) -> str | None:
+    """Return the text of a plain constant, None for anything else."""
+    if isinstance(value, bool | int | float | str):
+        return repr(value)
+    if isinstance(value, tuple) and all(constant_text(v) is not None for v in value):
+        return repr(value)
+    return None
+
+
+def source_file(item: FunctionType | type) -> Path:
+    """Return the file a function or class was read from."""
+    return Path(inspect.getsourcefile(item) or "")
+
+
+def source_files(functions: Iterable[Callable[..., Any]]) -> set[Path]:
+    """Return the files of all functions reachable from the given ones, and of the classes they use."""
+    files: set[Path] = set()
+    for function in reachable(functions):
+        files.add(source_file(function))
+        for value in referred(function).values():
+            if isinstance(value, type) and value.__module__.split(".")[0] not in FOREIGN:
+                files.add(source_file(value))
+    return files
+
+
+def digest(functions: Iterable[Callable[..., Any]], *texts: str) -> str:
+    """Return a digest of all sources reachable from the functions, their constants, and further texts."""
+    told = hashlib.sha256()
+    functions = list(functions)
+    for function in reachable(functions):
+        for name, value in referred(function).items():
+            text = constant_text(value)
+            if text is not None:
+                told.update(f"{function.__qualname__}.{name}={text}\n".encode())
+    for file in sorted(source_files(functions)):
+        told.update(file.read_bytes())
+    for text in texts:
+        told.update(text.encode())
+    return told.hexdigest()[:24]

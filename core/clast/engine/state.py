@@ -1,0 +1,118 @@
+"""The state of a running scene: plain arrays in named records, as the compiled loop takes them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.uint32]
+Integers = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
+
+
+class Particles(NamedTuple):
+    """Particle tables, (n, 8) float64 each; columns in ``kernels.layout``.
+
+    ``seen`` holds the velocities that forces see; ``reference`` (n, 3) the positions at the last neighbour search;
+    ``present`` (n,) is 0 for particles that left the domain.
+    """
+
+    pose: Floats
+    twist: Floats
+    seen: Floats
+    load: Floats
+    acceleration: Floats
+    reference: Floats
+    present: Bytes
+
+
+class Bonds(NamedTuple):
+    """Bonds in blocks of lanes: ends (b, LANES), bond numbers (b, LANES), and ``data`` (b, slots * LANES)."""
+
+    first: Indices
+    second: Indices
+    number: Integers
+    data: Floats
+
+
+class Pairs(NamedTuple):
+    """Pairs of particles that may touch, in rising order.
+
+    ``bond`` is the place of the pair's bond in the bond table, −1 for none; ``history`` (p, 3 + h) holds the last
+    normal and what the contact law remembers.
+    """
+
+    first: Indices
+    second: Indices
+    bond: Integers
+    touching: Bytes
+    history: Floats
+
+
+class WallPairs(NamedTuple):
+    """Particles near walls, ordered by wall and particle."""
+
+    wall: Indices
+    particle: Indices
+    touching: Bytes
+    history: Floats
+
+
+class Walls(NamedTuple):
+    """Walls: numbers of shape and motion, where they are, and what acts on them."""
+
+    shape_kind: Integers
+    shape: Floats
+    motion_kind: Integers
+    course: Floats
+    material: Integers
+    centre: Floats
+    displacement: Floats
+    velocity: Floats
+    force: Floats
+    moment: Floats
+    force_sum: Floats
+    reference: Floats
+
+
+class Cracks(NamedTuple):
+    """Crack table: one row a broken bond, in the order of breaking; ``count[0]`` rows are filled."""
+
+    count: Integers
+    step: Integers
+    bond: Integers
+    ends: Integers
+    position: Floats
+    mode: Integers
+    load: Floats  # normal force, shear force, energy
+
+
+class Numbers(NamedTuple):
+    """Run-time numbers of the laws and the loop."""
+
+    bond_uniforms: Floats
+    contact_table: Floats
+    body: Floats
+    dt: float
+    seed: int
+    reach2: float  # squared displacement at which neighbour lists go stale
+    lever: float  # 1: forces act at the contact point, 0: at the undeformed radius
+    start_kick: float
+    fade: float  # share of its load that a breaking bond loses each step
+
+
+class World(NamedTuple):
+    """Everything the step loop reads and writes."""
+
+    particles: Particles
+    bonds: Bonds
+    pairs: Pairs
+    wall_pairs: WallPairs
+    walls: Walls
+    cracks: Cracks
+    numbers: Numbers
+    clock: Integers
+    scratch: Floats

@@ -1,0 +1,106 @@
+"""Contact law: what two touching bodies do to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from clast.maths.vec3 import Vec
+from clast.parts.params import Params
+
+
+class Touch(NamedTuple):
+    """One contact between bodies i and j at one instant; j is the wall in a contact with a wall.
+
+    Attributes
+    ----------
+    overlap : float
+        δ > 0 in m.
+    normal : vector
+        Unit vector from i to j.
+    velocity : vector
+        Velocity of j against i at the contact point in m/s.
+    spin_i, spin_j : vector
+        Angular velocities in rad/s.
+    radius : float
+        Effective radius R* in m: R_i R_j / (R_i + R_j), R_i at a wall.
+    radius_i, radius_j : float
+        Radii in m; 0 for a wall.
+    inverse_mass, inverse_inertia : float
+        1/m* = 1/m_i + 1/m_j in 1/kg, 1/I* likewise in 1/(kg m²); walls and prescribed particles count as infinite.
+    """
+
+    overlap: float
+    normal: Vec
+    velocity: Vec
+    spin_i: Vec
+    spin_j: Vec
+    radius: float
+    radius_i: float
+    radius_j: float
+    inverse_mass: float
+    inverse_inertia: float
+
+
+class ContactLoad(NamedTuple):
+    """Force on j at the contact point (i gets its opposite) in N; torques beyond that force's own moment in N m."""
+
+    force: Vec
+    torque_i: Vec
+    torque_j: Vec
+
+
+class MaterialPair(NamedTuple):
+    """What a law's constants are computed from: two materials and how they interact."""
+
+    young_modulus_i: float
+    poisson_ratio_i: float
+    young_modulus_j: float
+    poisson_ratio_j: float
+    restitution: float
+    sliding_friction: float
+    rolling_friction: float
+
+
+class Features(NamedTuple):
+    """What the scene's materials need; False features are neither compiled nor stored."""
+
+    damping: bool
+    sliding: bool
+    rolling: bool
+
+
+@dataclass(frozen=True)
+class ContactLaw:
+    """The part a plugin registers with ``registry.contact_law(name, ContactLaw(...))``.
+
+    Attributes
+    ----------
+    summary : str
+        One line for ``clast plugins``.
+    Params : type
+        What the user writes under ``contacts.law``.
+    Constants : NamedTuple type
+        Numbers of one pair of materials.
+    constants : (params, pair) -> Constants
+        Computed once per pair of materials.
+    load : (touch, constants, history, dt, features) -> (ContactLoad, history)
+        ``features`` is a constant of the compiled loop: ``if features.sliding`` costs nothing.
+    energy : (touch, constants, history, features) -> float
+        Elastic energy in J.
+    stiffness : (constants, radius, overlap) -> float
+        Normal tangent stiffness in N/m, for the time step.
+    History : NamedTuple type or None
+        What a contact remembers while it lasts, all 0 at touch; vectors are tangential and the engine carries them
+        with the contact plane. Stored only when sliding friction is present.
+    """
+
+    summary: str
+    Params: type[Params]
+    Constants: type
+    constants: Callable[[Any, MaterialPair], Any]
+    load: Callable[..., Any]
+    energy: Callable[..., float]
+    stiffness: Callable[..., float]
+    History: type | None = None

@@ -1,0 +1,100 @@
+"""Generator: makes particles, and where it knows them, their bonds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.parts.params import Params
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class BondList:
+    """Bonds between particles of one packing.
+
+    Attributes
+    ----------
+    ends : (m, 2) int64
+        Particle indices within the packing, ``ends[:, 0] != ends[:, 1]``.
+    diameter : (m,) float64
+        Bond diameter in m.
+    length : (m,) float64
+        Initial length L0 in m; ``nan`` stands for the distance of the two centres.
+    """
+
+    ends: Ints
+    diameter: Floats
+    length: Floats
+
+
+@dataclass(frozen=True)
+class Packing:
+    """What a generator hands to the scene.
+
+    Attributes
+    ----------
+    position : (n, 3) float64
+        Centres in m.
+    radius : (n,) float64
+        Radii in m.
+    material : list of n str
+        Name of each particle's material.
+    velocity, spin : (n, 3) float64
+        Start velocities in m/s and angular velocities in rad/s.
+    prescribed : (n,) bool
+        Particles that keep their start velocity and spin whatever pushes them.
+    grain : (n,) int64
+        Number of the grain a particle belongs to, from 0; -1 for loose particles.
+    bonds : BondList or None
+        Bonds the generator knows; None leaves bonding to the scene's ``bonds.between``.
+    report : mapping
+        What was reached, for the user: name with unit -> number or text.
+    """
+
+    position: Floats
+    radius: Floats
+    material: list[str]
+    velocity: Floats
+    spin: Floats
+    prescribed: NDArray[np.bool_]
+    grain: Ints
+    bonds: BondList | None = None
+    report: Mapping[str, float | int | str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """What a generator will make, told without making it."""
+
+    particles: int
+    bonds: int | None = None
+
+
+@dataclass(frozen=True)
+class Generator:
+    """The part a plugin registers with ``registry.generator(name, Generator(...))``.
+
+    Attributes
+    ----------
+    summary : str
+        One line for ``clast plugins``.
+    Params : type
+        What the user writes in YAML.
+    generate : (params, folder) -> Packing
+        ``folder`` is the folder of the scene file, for relative paths.
+    predict : (params, folder) -> Prediction
+        Counts without packing; must take milliseconds.
+    """
+
+    summary: str
+    Params: type[Params]
+    generate: Callable[[Any, Path], Packing]
+    predict: Callable[[Any, Path], Prediction]

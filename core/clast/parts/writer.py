@@ -1,0 +1,46 @@
+"""Writer: turns the results of a run into something to look at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from clast.parts.params import Params
+
+if TYPE_CHECKING:
+    from clast.results.run import Run
+
+
+@dataclass(frozen=True)
+class Written:
+    """Outcome of a writer: the file, or the plain sentence that says why there is none."""
+
+    path: Path | None
+    skipped: str = ""
+
+
+@dataclass(frozen=True)
+class Writer:
+    """The part a plugin registers with ``registry.writer(name, Writer(...))``.
+
+    A writer is a pure function of a run's results, so a resumed run ends in the same files as an uninterrupted
+    one, and any run can be exported again later.
+
+    Attributes
+    ----------
+    summary : str
+        One line for ``clast plugins``.
+    Params : type
+        What the user writes under ``output.writers``.
+    file : str
+        Name of the file it writes inside the run folder.
+    write : (run, params, path) -> Written
+        Reads the run, writes ``path``.
+    """
+
+    summary: str
+    Params: type[Params]
+    file: str
+    write: Callable[[Run, Any, Path], Written]

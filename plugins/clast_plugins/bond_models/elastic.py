@@ -1,0 +1,145 @@
+"""Model 1: linear elastic bonds that break at a normal or a shear strength."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, NamedTuple
+
+from pydantic import Field
+
+from clast import hookimpl
+from clast.config.quantities import Number, Stress
+from clast.maths.vec3 import norm, scale
+from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Numbers, Stiffness, Strain
+from clast.parts.params import Params
+from clast.plugins.registry import Registry
+from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
+
+
+class Elastic(Params):
+    r"""Linear elastic bond with separate normal and shear strengths.
+
+    Equation
+    --------
+    σ = s |F_n|/A + |M_b| R/I,  τ = |F_t|/A + |M_t| R/J;  breaks when σ ≥ σ_br or τ ≥ τ_br
+
+    Symbols
+    -------
+    F_n, F_t, M_b, M_t : normal and shear force, bending and torsion moment, each stiffness times strain measure
+    s : +1 in tension, −1 in compression (``normal_term: tension``) or always +1 (``absolute``)
+
+    Limits
+    ------
+    Undamped and brittle: how many bonds break in a cascade is decided by dynamics; see ``bonds.damping``.
+
+    Source
+    ------
+    Rotter, Dosta, Düster (2023), Eqs. 3–8; the sign s as in the authors' program, which the paper prints as +1.
+    """
+
+    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E of the bond")]
+    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, description="Poisson's ratio of the bond")]
+    normal_strength: Annotated[Stress, Field(gt=0, description="Strength against tension and bending, sigma_br")]
+    shear_strength: Annotated[
+        Stress | None, Field(gt=0, description="Strength against shear and torsion, tau_br; none: unlimited")
+    ] = None
+    normal_term: Annotated[
+        Literal["tension", "absolute"],
+        Field(description="whether compression relieves the outer fibre (tension) or loads it (absolute)"),
+    ] = "tension"
+
+
+class Constants(NamedTuple):
+    """Numbers of Model 1; ``per_L`` is 1/L0, W and W_t the section moduli I/R and J/R."""
+
+    per_L: Numbers
+    EA: Numbers
+    GA: Numbers
+    GJ: Numbers
+    EI: Numbers
+    A: Numbers
+    W: Numbers
+    W_t: Numbers
+    per_normal_strength: float
+    per_shear_strength: float
+    compression_sign: float
+
+
+def constants(params: Elastic, bond: BondGeometry) -> Constants:
+    """Compute the constants of all bonds."""
+    E, J = params.young_modulus, 2.0 * bond.I
+    G = E / (2.0 * (1.0 + params.poisson_ratio))
+    return Constants(
+        per_L=1.0 / bond.L0,
+        EA=E * bond.A,
+        GA=G * bond.A,
+        GJ=G * J,
+        EI=E * bond.I,
+        A=bond.A,
+        W=bond.I / bond.R,
+        W_t=J / bond.R,
+        per_normal_strength=1.0 / params.normal_strength,
+        per_shear_strength=0.0 if params.shear_strength is None else 1.0 / params.shear_strength,
+        compression_sign=-1.0 if params.normal_term == "tension" else 1.0,
+    )
+
+
+def stiffness(params: Elastic, bond: BondGeometry) -> Stiffness:
+    """Return EA/L0, GA/L0, GJ/L0, EI/L0 of all bonds."""
+    return beam_stiffness(params.young_modulus, params.poisson_ratio, bond)
+
+
+def load(strain: Strain, c: Constants, state: None) -> BondLoad:
+    """Eqs. 3–6 on total strains: stiffness times strain measure."""
+    return BondLoad(
+        normal=c.EA * c.per_L * strain.axial,
+        shear=scale(c.GA * c.per_L, strain.shear),
+        torsion=c.GJ * c.per_L * strain.twist,
+        bending=scale(c.EI * c.per_L, strain.bending),
+    )
+
+
+def normal_stress(load: BondLoad, c: Constants) -> float:
+    """Return the stress of the outermost fibre in Pa, Eq. 7."""
+    sign = 1.0 if load.normal > 0.0 else c.compression_sign
+    return sign * abs(load.normal) / c.A + norm(load.bending) / c.W
+
+
+def shear_stress(load: BondLoad, c: Constants) -> float:
+    """Return the largest shear stress in Pa, Eq. 8."""
+    return norm(load.shear) / c.A + abs(load.torsion) / c.W_t
+
+
+def failure(strain: Strain, load: BondLoad, c: Constants, state: None) -> float:
+    """Return the larger of the two stresses, each as a share of its strength."""
+    return max(normal_stress(load, c) * c.per_normal_strength, shear_stress(load, c) * c.per_shear_strength)
+
+
+def mode(strain: Strain, load: BondLoad, c: Constants, state: None) -> int:
+    """Return 0 for a break in tension, 1 in shear."""
+    by_shear = shear_stress(load, c) * c.per_shear_strength > normal_stress(load, c) * c.per_normal_strength
+    return 1 if by_shear else 0
+
+
+def energy(strain: Strain, c: Constants, state: None) -> float:
+    """Return half of load times strain in J."""
+    return beam_energy(strain, load(strain, c, state))
+
+
+@hookimpl
+def clast_register(registry: Registry) -> None:
+    """Offer Model 1."""
+    registry.bond_model(
+        "elastic",
+        BondModel(
+            summary="Model 1: linear elastic, breaks at a normal or shear strength",
+            Params=Elastic,
+            Constants=Constants,
+            constants=constants,
+            stiffness=stiffness,
+            load=load,
+            failure=failure,
+            mode=mode,
+            energy=energy,
+            modes=("tension", "shear"),
+        ),
+    )

@@ -1,0 +1,211 @@
+"""Hertz–Mindlin contact with viscous damping, sliding and rolling friction."""
+
+from __future__ import annotations
+
+from math import log, pi, sqrt
+from typing import Annotated, Literal, NamedTuple
+
+from pydantic import Field
+
+from clast import hookimpl
+from clast.maths.vec3 import ZERO, Vec, across, add, dot, norm, scale, sub
+from clast.parts.contact_law import ContactLaw, ContactLoad, Features, MaterialPair, Touch
+from clast.parts.params import Params
+from clast.plugins.registry import Registry
+
+ELASTIC, TOTAL, MUSEN = 0.0, 1.0, 2.0
+LIMITS = {"elastic": ELASTIC, "total": TOTAL, "musen": MUSEN}
+
+
+class HertzMindlin(Params):
+    r"""Elastic spheres with Tsuji damping, Coulomb sliding and a constant rolling torque.
+
+    Equation
+    --------
+    F_n = 4/3 E* √(R* δ) δ + c √(m* k_n) v_n,  k_n = 2 E* √(R* δ)
+    F_t = k_t ξ + c √(m* k_t) v_t,  k_t = 8 G* √(R* δ),  |F_t| ≤ μ F_lim
+    M_r = μ_r F_lim R* against the rolling
+
+    Symbols
+    -------
+    δ, v_n : overlap in m and its rate in m/s
+    ξ, v_t : tangential displacement since touch in m and its rate; ξ turns with the contact plane
+    E*, G*, R*, m* : effective moduli, radius and mass
+    c : 2 √(5/6) β, β = −ln e/√(π² + ln² e), at most 1
+    F_lim : elastic part of F_n (``elastic``: the viscous part integrates to zero over an impact, so gross sliding
+        gives the impulse μ (1 + e) m v_n), or its positive total (``total``)
+
+    Options
+    -------
+    ``coulomb_limit: musen`` limits the elastic part of F_t alone by the unclipped |F_n| and drops its damping while
+    sliding, as the paper's authors' program does: for comparison only. ``rolling: own_spin`` acts against each
+    particle's own spin as that program does: neither objective nor quiet at rest.
+    ``tension_cutoff: true`` never lets F_n pull; the coefficient of restitution is then not e but larger.
+
+    Limits
+    ------
+    Small overlaps; no adhesion; tangential stiffness at the present overlap without unloading correction. A cylinder
+    wall counts as flat.
+
+    Source
+    ------
+    Hertz (1882); Mindlin and Deresiewicz (1953); Tsuji, Tanaka and Ishida (1992), doi:10.1016/0032-5910(92)88030-L;
+    rolling: Ai et al. (2011), model A, doi:10.1016/j.powtec.2010.09.030.
+    """
+
+    coulomb_limit: Annotated[
+        Literal["elastic", "total", "musen"], Field(description="the normal force that limits sliding and rolling")
+    ] = "elastic"
+    tension_cutoff: Annotated[bool, Field(description="whether damping may not make a leaving contact pull")] = False
+    rolling: Annotated[
+        Literal["relative", "own_spin"], Field(description="the spin that rolling friction acts against")
+    ] = "relative"
+
+
+class Constants(NamedTuple):
+    """Numbers of one pair of materials and the options, all floats."""
+
+    E: float
+    G: float
+    damping: float
+    mu: float
+    mu_r: float
+    limit: float
+    cutoff: float
+    own_spin: float
+
+
+class History(NamedTuple):
+    """Tangential displacement of the contact since it began, in m."""
+
+    xi: Vec
+
+
+def damping_ratio(restitution: float) -> float:
+    """Return β of Tsuji's damping for a coefficient of restitution; the limit 1 at 0.
+
+    >>> damping_ratio(1.0), damping_ratio(0.0)
+    (0.0, 1.0)
+    """
+    if restitution == 0.0:
+        return 1.0
+    ln_e = log(restitution)
+    return abs(ln_e) / sqrt(pi * pi + ln_e * ln_e)
+
+
+def constants(params: HertzMindlin, pair: MaterialPair) -> Constants:
+    """Compute effective moduli and damping of a pair of materials."""
+    nu_i, nu_j = pair.poisson_ratio_i, pair.poisson_ratio_j
+    G_i = pair.young_modulus_i / (2.0 * (1.0 + nu_i))
+    G_j = pair.young_modulus_j / (2.0 * (1.0 + nu_j))
+    return Constants(
+        E=1.0 / ((1.0 - nu_i**2) / pair.young_modulus_i + (1.0 - nu_j**2) / pair.young_modulus_j),
+        G=1.0 / ((2.0 - nu_i) / G_i + (2.0 - nu_j) / G_j),
+        damping=2.0 * sqrt(5.0 / 6.0) * damping_ratio(pair.restitution),
+        mu=pair.sliding_friction,
+        mu_r=pair.rolling_friction,
+        limit=LIMITS[params.coulomb_limit],
+        cutoff=1.0 if params.tension_cutoff else 0.0,
+        own_spin=1.0 if params.rolling == "own_spin" else 0.0,
+    )
+
+
+def elastic_force(touch: Touch, c: Constants) -> float:
+    """Return Hertz's repulsion in N."""
+    return 4.0 / 3.0 * c.E * sqrt(touch.radius * touch.overlap) * touch.overlap
+
+
+def normal_force(touch: Touch, c: Constants, features: Features) -> float:
+    """Return the repulsion with damping in N."""
+    force = elastic_force(touch, c)
+    if features.damping:
+        k_n = 2.0 * c.E * sqrt(touch.radius * touch.overlap)
+        force = force - c.damping * sqrt(k_n / touch.inverse_mass) * dot(touch.velocity, touch.normal)
+        force = 0.0 if c.cutoff > 0.0 and force < 0.0 else force
+    return force
+
+
+def limiting_force(touch: Touch, c: Constants, F_n: float) -> float:
+    """Return the normal force that limits friction in N."""
+    if c.limit == ELASTIC:
+        return elastic_force(touch, c)
+    return abs(F_n) if c.limit == MUSEN else max(F_n, 0.0)
+
+
+def sliding(touch: Touch, c: Constants, xi_old: Vec, F_lim: float, dt: float) -> tuple[Vec, Vec]:
+    """Return the tangential force on i in N and the tangential displacement in m, Coulomb's limit kept."""
+    v_t = across(touch.velocity, touch.normal)
+    k_t = 8.0 * c.G * sqrt(touch.radius * touch.overlap)
+    c_t = c.damping * sqrt(k_t / touch.inverse_mass)
+    xi = add(xi_old, scale(dt, v_t))
+    spring = scale(k_t, xi)
+    damped = add(spring, scale(c_t, v_t))
+    judged = spring if c.limit == MUSEN else damped
+    size, limit = norm(judged), c.mu * F_lim
+    slides = size > limit
+    share = limit / size if slides else 1.0
+    force = scale(share, judged) if slides else damped
+    # while sliding, the spring keeps what the limit leaves after the dashpot
+    kept = sub(force, scale(c_t, v_t)) if c.limit != MUSEN else force
+    return force, (scale(1.0 / k_t, kept) if slides else xi)
+
+
+def rolling(touch: Touch, c: Constants, F_lim: float, dt: float) -> tuple[Vec, Vec]:
+    """Return the rolling torques on i and j in N m."""
+    relative = across(sub(touch.spin_j, touch.spin_i), touch.normal)
+    rate = norm(relative)
+    # no more than what stops the rolling within this step
+    size = min(c.mu_r * F_lim * touch.radius, rate / (touch.inverse_inertia * dt)) / rate if rate > 0.0 else 0.0
+    shared = scale(size, relative)
+    if c.own_spin == 0.0:
+        return shared, scale(-1.0, shared)
+    w_i, w_j = norm(touch.spin_i), norm(touch.spin_j)
+    own_i = -c.mu_r * F_lim * touch.radius_i / w_i if w_i > 0.0 else 0.0
+    own_j = -c.mu_r * F_lim * touch.radius_j / w_j if w_j > 0.0 else 0.0
+    return scale(own_i, touch.spin_i), scale(own_j, touch.spin_j)
+
+
+def load(
+    touch: Touch, c: Constants, history: History, dt: float, features: Features
+) -> tuple[ContactLoad, History]:
+    """Return what the contact does to body j, and its new history."""
+    F_n = normal_force(touch, c, features)
+    F_lim = limiting_force(touch, c, F_n)
+    F_t, xi = ZERO, history.xi
+    if features.sliding:
+        F_t, xi = sliding(touch, c, history.xi, F_lim, dt)
+    torque_i, torque_j = ZERO, ZERO
+    if features.rolling:
+        torque_i, torque_j = rolling(touch, c, F_lim, dt)
+    return ContactLoad(sub(scale(F_n, touch.normal), F_t), torque_i, torque_j), History(xi)
+
+
+def energy(touch: Touch, c: Constants, history: History, features: Features) -> float:
+    """Return 2/5 F δ + ½ k_t ξ² in J."""
+    stored = 0.4 * elastic_force(touch, c) * touch.overlap
+    if features.sliding:
+        stored = stored + 4.0 * c.G * sqrt(touch.radius * touch.overlap) * dot(history.xi, history.xi)
+    return stored
+
+
+def stiffness(c: Constants, radius: float, overlap: float) -> float:
+    """Return the normal tangent stiffness 2 E* √(R* δ) in N/m."""
+    return 2.0 * c.E * sqrt(radius * overlap)
+
+
+@hookimpl
+def clast_register(registry: Registry) -> None:
+    """Offer Hertz–Mindlin."""
+    registry.contact_law(
+        "hertz_mindlin",
+        ContactLaw(
+            summary="elastic spheres with Tsuji damping, Coulomb sliding and rolling friction",
+            Params=HertzMindlin,
+            Constants=Constants,
+            constants=constants,
+            load=load,
+            energy=energy,
+            stiffness=stiffness,
+            History=History,
+        ),
+    )

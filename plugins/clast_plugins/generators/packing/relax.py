@@ -1,0 +1,206 @@
+"""Random packing of equal spheres: random points whose overlaps are pushed away.
+
+One attempt has two stages. *Spread*: each sphere moves along the sum of its overlaps, damped so strongly that it
+keeps little memory of its last move, and is put back into the container at once. This is the force-biased packing of
+the paper's authors; it decides the structure. *Settle*: the small overlaps that are left (1 % of a diameter) fade
+slowly that way in a dense packing, so a minimiser with inertia takes them to the tolerance. If the overlaps stop
+fading before, the spheres are jammed: they are shaken and relaxed again.
+
+With less damping in the first stage the spheres settle in smoother shells with 2 to 3 % fewer neighbours within half a
+diameter; with the damping used here their number agrees with the authors' program.
+
+Everything is counted in sweeps, never in seconds, and every sum runs in a fixed order: a seed gives the same bytes on
+any number of threads.
+
+Sources: J. Mościński et al., "The force-biased algorithm for the irregular close packing of equal hard spheres",
+Molecular Simulation 3 (1989) 201; W. S. Jodrey and E. M. Tory, Phys. Rev. A 32 (1985) 2347,
+doi:10.1103/PhysRevA.32.2347; for the minimiser E. Bitzek et al., "Structural relaxation made simple",
+Phys. Rev. Lett. 97 (2006) 170201, doi:10.1103/PhysRevLett.97.170201.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast_plugins.generators.packing.container import Container, confine, random_centres, uniforms
+
+Floats = NDArray[np.float64]
+
+SPREAD_STEP = 0.3
+SPREAD_MEMORY = 0.4
+SPREAD_GOAL = 0.01
+SHAKES = 20
+SHAKE = 0.35
+SKIN = 0.3
+LOOK_EVERY = 200
+FADING = 0.9
+
+
+class Relaxed(NamedTuple):
+    """A packing of spheres of diameter 1, and how it was reached.
+
+    ``position`` is ``(n, 3) float64``; ``overlap`` the largest one left; both in diameters.
+    """
+
+    position: Floats
+    overlap: float
+    sweeps: int
+    shakes: int
+
+
+def relax(count: int, container: Container, seed: int, tolerance: float) -> Relaxed:
+    """Pack ``count`` spheres of diameter 1 with their centres in the container.
+
+    Parameters
+    ----------
+    count : int
+        Number of spheres.
+    container : Container
+        Room of the centres, in diameters.
+    seed : int
+        Start of the random numbers.
+    tolerance : float
+        Largest overlap wanted, in diameters.
+
+    Returns
+    -------
+    Relaxed
+        The first packing within the tolerance, or the best one found: compare ``overlap`` with ``tolerance``.
+
+    Examples
+    --------
+    >>> two = relax(2, Container(radius=0.5), seed=1, tolerance=1e-4)
+    >>> bool(np.linalg.norm(two.position[0] - two.position[1]) > 1 - 1e-4)
+    True
+    """
+    stream = np.random.Philox(seed)
+    spheres = SoftSpheres(container, tolerance, budget_for(count))
+    position = random_centres(stream, count, container)
+    best, least, shakes = position, math.inf, 0
+    while True:
+        position = settle(spheres, spread(spheres, position))
+        overlap = spheres.push(position)
+        if overlap < least:
+            best, least = position, overlap
+        if least <= tolerance or shakes == SHAKES or spheres.left <= 0:
+            return Relaxed(best, least, spheres.sweeps, shakes)
+        shakes += 1
+        position = confine(position + SHAKE * uniforms(stream, count), container)
+
+
+def budget_for(count: int) -> int:
+    """Return how many sweeps may be spent on ``count`` spheres: fewer on large packings, which shaking helps little.
+
+    >>> budget_for(361), budget_for(5542)
+    (40000, 8000)
+    """
+    return min(40_000, max(8_000, 20_000_000 // count))
+
+
+class SoftSpheres:
+    """Overlapping spheres of diameter 1 that push each other away, with a neighbour list kept while none moved far.
+
+    Attributes
+    ----------
+    force : (n, 3) float64
+        Of the last push: sum of overlap · unit vector.
+    energy : float
+        Of the last push: half the sum of squared overlaps.
+    sweeps, left : int
+        Pushes done, and left of the budget.
+    """
+
+    def __init__(self, container: Container, tolerance: float, budget: int) -> None:
+        self.container = container
+        self.tolerance = tolerance
+        self.sweeps = 0
+        self.left = budget
+        self.energy = 0.0
+        self.force = np.empty((0, 3))
+        self._listed_at: Floats | None = None
+
+    def push(self, position: Floats) -> float:
+        """Compute the forces; return the largest overlap."""
+        from clast_plugins.generators.packing.overlap_kernel import push
+
+        if self._listed_at is None or _moved(position, self._listed_at) > 0.5 * SKIN:
+            self._list_pairs(position)
+        self.force = np.empty_like(position)
+        self.sweeps += 1
+        self.left -= 1
+        largest, self.energy = push(position, self._first, self._second, self.force)
+        return float(largest)
+
+    def _list_pairs(self, position: Floats) -> None:
+        from scipy.spatial import cKDTree
+
+        pairs = cKDTree(position).query_pairs(1.0 + SKIN, output_type="ndarray")
+        pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+        self._first, self._second = pairs[:, 0].astype(np.int64), pairs[:, 1].astype(np.int64)
+        self._listed_at = position.copy()
+
+
+class Fading:
+    """Tells, looking every so often, whether the overlap energy still falls."""
+
+    def __init__(self) -> None:
+        self._age = 0
+        self._last = math.inf
+
+    def stopped(self, energy: float) -> bool:
+        """Return True when the energy fell by less than a tenth since the last look."""
+        self._age += 1
+        if self._age % LOOK_EVERY:
+            return False
+        last, self._last = self._last, energy
+        return energy > FADING * last
+
+
+def spread(spheres: SoftSpheres, position: Floats) -> Floats:
+    """Return the spheres pushed apart by damped moves until overlaps are small, stop fading, or the budget is spent."""
+    fading = Fading()
+    move = np.zeros_like(position)
+    goal = max(SPREAD_GOAL, spheres.tolerance)
+    while spheres.push(position) > goal and spheres.left > 0 and not fading.stopped(spheres.energy):
+        moved = confine(position + SPREAD_MEMORY * move + SPREAD_STEP * spheres.force, spheres.container)
+        move = moved - position
+        position = moved
+    return position
+
+
+def settle(spheres: SoftSpheres, position: Floats) -> Floats:
+    """Return the overlaps minimised by FIRE, within the container, down to the tolerance or as far as they fade.
+
+    The velocities are steered towards the forces while the power is positive, and dropped when it is not; step and
+    steering follow Bitzek et al., Table I.
+    """
+    from clast_plugins.generators.packing.overlap_kernel import products
+
+    fading = Fading()
+    velocity = np.zeros_like(position)
+    step, steering, downhill = 0.3, 0.1, 0
+    while spheres.push(position) > spheres.tolerance and spheres.left > 0 and not fading.stopped(spheres.energy):
+        power, force_square, speed_square = products(spheres.force, velocity)
+        if power > 0.0:
+            downhill += 1
+            along = steering * math.sqrt(speed_square / force_square)
+            velocity = (1.0 - steering) * velocity + along * spheres.force
+            if downhill > 5:
+                step, steering = min(1.1 * step, 1.0), 0.99 * steering
+        else:
+            velocity = np.zeros_like(position)
+            step, steering, downhill = max(0.5 * step, 0.02), 0.1, 0
+        moved = confine(position + step * (velocity + step * spheres.force), spheres.container)
+        velocity = (moved - position) / step
+        position = moved
+    return position
+
+
+def _moved(position: Floats, before: Floats) -> float:
+    """Return the largest distance that a centre went."""
+    way = position - before
+    return math.sqrt(np.max(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2))

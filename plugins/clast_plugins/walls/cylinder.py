@@ -1,0 +1,86 @@
+"""Cylinder: an infinite tube, touched from inside or outside."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from clast import hookimpl
+from clast.config.quantities import Direction, Length, Point
+from clast.maths.vec3 import ZERO, Vec, across, norm, scale, sub
+from clast.parts.params import Params
+from clast.parts.wall import Nearest, Wall
+from clast.plugins.registry import Registry
+
+
+class Cylinder(Params):
+    """An infinitely long cylinder wall.
+
+    Contacts count as contacts with a flat wall: the cylinder must be much larger than the particles.
+    """
+
+    point: Annotated[Point, Field(description="A point on the axis")]
+    axis: Annotated[Direction, Field(description="Direction of the axis")]
+    radius: Annotated[Length, Field(gt=0, description="Radius of the cylinder")]
+    side: Annotated[Literal["inside", "outside"], Field(description="where the particles are")] = "inside"
+
+
+class Shape(NamedTuple):
+    """Point on the axis, unit axis, radius in m, and +1 for inside, −1 for outside."""
+
+    point: Vec
+    axis: Vec
+    radius: float
+    sign: float
+
+
+def shape(params: Cylinder) -> Shape:
+    """Return the numbers of the cylinder."""
+    axis = scale(1.0 / norm(params.axis), params.axis)
+    return Shape(params.point, axis, params.radius, 1.0 if params.side == "inside" else -1.0)
+
+
+def nearest(shape: Shape, x: Vec) -> Nearest:
+    """Return distance and direction from x to the surface."""
+    outward = across(sub(x, shape.point), shape.axis)
+    out = norm(outward)
+    if out == 0.0:
+        return Nearest(shape.sign * shape.radius, ZERO)
+    return Nearest(shape.sign * (shape.radius - out), scale(shape.sign / out, outward))
+
+
+def centre(params: Cylinder) -> Vec:
+    """Return the point about which the moment is reported."""
+    return params.point
+
+
+def mesh(params: Cylinder, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return a tube of 96 triangles, ``size`` long on either side of the point."""
+    a = np.asarray(shape(params).axis)
+    e1 = np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
+    e1 /= np.linalg.norm(e1)
+    angle = 2.0 * np.pi * np.arange(48) / 48
+    ring = params.radius * (np.outer(np.cos(angle), e1) + np.outer(np.sin(angle), np.cross(a, e1)))
+    points = np.asarray(params.point) + np.vstack([ring - size * a, ring + size * a])
+    k, after = np.arange(48), (np.arange(48) + 1) % 48
+    return points, np.vstack([np.column_stack([k, after, k + 48]), np.column_stack([after, after + 48, k + 48])])
+
+
+@hookimpl
+def clast_register(registry: Registry) -> None:
+    """Offer the cylinder."""
+    registry.wall(
+        "cylinder",
+        Wall(
+            summary="infinite cylinder, touched from inside or outside",
+            Params=Cylinder,
+            Shape=Shape,
+            shape=shape,
+            nearest=nearest,
+            centre=centre,
+            mesh=mesh,
+        ),
+    )
