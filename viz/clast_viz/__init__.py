@@ -1,0 +1,59 @@
+"""What a run looks like: a recording, a VTK file, a figure and a picture.
+
+The writers import rerun, VTK, pyvista and matplotlib when they write, so that loading this plugin is free.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from clast import hookimpl
+from clast.parts.writer import Writer
+
+from clast_viz import figure, picture, recording, vtk
+
+if TYPE_CHECKING:
+    from clast.plugins.registry import Registry
+
+CLAST_API = 1
+
+
+@hookimpl
+def clast_register(registry: Registry) -> None:
+    """Register the four writers."""
+    registry.writer(
+        "recording",
+        Writer(
+            summary="rerun recording: particles, bonds coloured by load, cracks, walls, curves over time",
+            Params=recording.RecordingParams,
+            file=recording.FILE,
+            write=recording.write_recording,
+        ),
+    )
+    registry.writer(
+        "vtk",
+        Writer(
+            summary="VTKHDF for ParaView: particles and intact bonds over time",
+            Params=vtk.VtkParams,
+            file=vtk.FILE,
+            write=vtk.write_vtk,
+        ),
+    )
+    registry.writer(
+        "figure",
+        Writer(
+            summary="stress over strain with the measured crushing point, and the bonds broken",
+            Params=figure.FigureParams,
+            file=figure.FILE,
+            write=figure.write_figure,
+        ),
+    )
+    registry.writer(
+        "picture",
+        Writer(
+            summary="the grain at its peak stress, bonds coloured by load",
+            Params=picture.PictureParams,
+            file=picture.FILE,
+            write=picture.write_picture,
+        ),
+    )

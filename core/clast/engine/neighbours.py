@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.kernels.layout import INTACT, INVERSE_MASS, LANES, RADIUS, X
+from clast.engine.kernels.layout import INTACT, INVERSE_MASS, RADIUS, X
 from clast.engine.state import Bonds, Floats, Integers, Pairs, Particles, WallPairs, Walls
+from clast.engine.tables import slot_view
 from clast.parts.neighbour_search import NeighbourSearch
 
 NearestPoint = Callable[[Any, Any], Any]
@@ -86,7 +87,7 @@ def bond_places(bonds: Bonds, pairs: Integers) -> Integers:
     place = np.full(len(pairs), -1, np.int64)
     if len(bonds.first) == 0 or len(pairs) == 0:
         return place
-    standing = np.nonzero(bonds.data.reshape(len(bonds.first), -1, LANES)[:, INTACT, :].ravel() > 0.0)[0]
+    standing = np.nonzero(slot_view(bonds, INTACT).ravel() > 0.0)[0]
     i, j = bonds.first.ravel()[standing], bonds.second.ravel()[standing]
     bond_key = key(np.minimum(i, j), np.maximum(i, j))
     order = np.argsort(bond_key, kind="stable")

@@ -99,10 +99,15 @@ def no_bonds() -> Bonds:
     return Bonds(ends, ends.copy(), np.zeros((0, LANES), np.int64), np.zeros((0, 2 * LANES)))
 
 
+def slot_view(bonds: Bonds, slot: int) -> Floats:
+    """Return a writable view of one slot of the bond table, (b, LANES)."""
+    return bonds.data.reshape(len(bonds.first), bonds.data.shape[1] // LANES, LANES)[:, slot, :]
+
+
 def bond_slot(bonds: Bonds, slot: int) -> Floats:
     """Return one slot of all bonds as (m,) float64, by bond number."""
     real = _real_lanes(bonds)
-    values = bonds.data.reshape(len(bonds.first), -1, LANES)[:, slot, :].ravel()
+    values = slot_view(bonds, slot).ravel()
     result = np.zeros(len(real))
     result[bonds.number.ravel()[real]] = values[real]
     return result

@@ -55,6 +55,8 @@ class Packing:
         Number of the grain a particle belongs to, from 0; -1 for loose particles.
     bonds : BondList or None
         Bonds the generator knows; None leaves bonding to the scene's ``bonds.between``.
+    relieved : bool
+        Whether overlaps at the start count as undeformed: contacts then push only beyond them.
     report : mapping
         What was reached, for the user: name with unit -> number or text.
     """
@@ -67,6 +69,7 @@ class Packing:
     prescribed: NDArray[np.bool_]
     grain: Ints
     bonds: BondList | None = None
+    relieved: bool = False
     report: Mapping[str, float | int | str] = field(default_factory=dict)
 
 

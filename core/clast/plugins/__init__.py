@@ -1,0 +1,1 @@
+"""Plugins: the hook, the registry that holds every part, and how plugins are found."""

@@ -1,4 +1,4 @@
-"""What a frame shows of the bonds: computed when asked, at the positions of the full step."""
+"""What results show of the bonds: computed when asked, at the positions of the full step."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import numpy as np
 
 from clast.engine.compiler import compiled
 from clast.engine.state import Floats, World
+from clast.maths.vec3 import norm
 
 from .bond_sweep import gather, read_motion
 from .layout import INTACT, LANES
@@ -26,13 +27,14 @@ from .slots import (
 
 @compiled
 def observe(world: World, output: Floats) -> None:
-    """Write intactness, normal force, failure index and elastic energy of every bond into ``output``.
+    """Write what every bond carries into ``output``.
 
     Parameters
     ----------
     world : World
-    output : (m, 4) float64
-        Row k belongs to bond number k; broken bonds keep zeros.
+    output : (m, 8) float64
+        Row k belongs to bond number k, broken bonds keep zeros: intact, elongation in m, normal force and shear force
+        in N, torsion and bending moment in N m, failure index, elastic energy in J.
     """
     if BONDS:
         bonds, particles = world.bonds, world.particles
@@ -52,6 +54,10 @@ def observe(world: World, output: Floats) -> None:
                 load = bond_load(strain, constants, state)
                 row = output[bonds.number[b, lane]]
                 row[0] = 1.0
-                row[1] = load.normal
-                row[2] = bond_failure(strain, load, constants, state)
-                row[3] = bond_energy(strain, constants, state)
+                row[1] = strain.axial
+                row[2] = load.normal
+                row[3] = norm(load.shear)
+                row[4] = load.torsion
+                row[5] = norm(load.bending)
+                row[6] = bond_failure(strain, load, constants, state)
+                row[7] = bond_energy(strain, constants, state)

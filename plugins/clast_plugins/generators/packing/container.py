@@ -25,7 +25,7 @@ class Container(NamedTuple):
 
 
 def around(radius: float, half_height: float = math.inf) -> Container:
-    """Return the container of the centres of spheres of diameter 1 that lie wholly in a body of these measures."""
+    """Return the container of the centres of spheres of diameter 1 that lie wholly in a body of this size."""
     return Container(radius - 0.5, half_height - 0.5)
 
 
@@ -60,7 +60,7 @@ def uniforms(stream: np.random.Philox, count: int) -> Floats:
     True
     """
     bits = np.asarray(stream.random_raw(3 * count), np.uint64)
-    return ((bits >> np.uint64(11)) * 2.0**-52 - 1.0).reshape(count, 3)
+    return np.asarray((bits >> np.uint64(11)) * 2.0**-52 - 1.0, np.float64).reshape(count, 3)
 
 
 def random_centres(stream: np.random.Philox, count: int, container: Container) -> Floats:
@@ -70,7 +70,9 @@ def random_centres(stream: np.random.Philox, count: int, container: Container) -
     -------
     (count, 3) float64
     """
-    room = np.array([1.0, 1.0, min(1.0, container.half_height / container.radius if container.radius else 1.0)])
+    room = np.array(
+        [1.0, 1.0, min(1.0, container.half_height / container.radius if container.radius else 1.0)]
+    )
     kept = np.empty((0, 3))
     while len(kept) < count:
         trial = uniforms(stream, 2 * count) * room

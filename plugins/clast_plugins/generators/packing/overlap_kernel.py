@@ -9,11 +9,14 @@ from numba import njit
 from numpy.typing import NDArray
 
 
-@njit(cache=True, error_model="numpy")  # type: ignore[misc,unused-ignore]
+@njit(cache=True, error_model="numpy")  # type: ignore[misc,untyped-decorator,unused-ignore]
 def push(
-    position: NDArray[np.float64], first: NDArray[np.int64], second: NDArray[np.int64], force: NDArray[np.float64]
+    position: NDArray[np.float64],
+    first: NDArray[np.int64],
+    second: NDArray[np.int64],
+    force: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Write the force on each sphere of diameter 1 and unit stiffness; return largest overlap and overlap energy.
+    """Write the force on each sphere of diameter 1; return the largest overlap and the overlap energy.
 
     Parameters
     ----------
@@ -52,7 +55,7 @@ def push(
     return largest, energy
 
 
-@njit(cache=True, error_model="numpy")  # type: ignore[misc,unused-ignore]
+@njit(cache=True, error_model="numpy")  # type: ignore[misc,untyped-decorator,unused-ignore]
 def products(force: NDArray[np.float64], velocity: NDArray[np.float64]) -> tuple[float, float, float]:
     """Return the sums of force·velocity, force·force and velocity·velocity over all spheres."""
     power = 0.0

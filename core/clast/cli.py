@@ -1,0 +1,113 @@
+"""Command line: thin commands over what Python users call.
+
+Everything heavy is imported inside the command that needs it, so that ``clast --help`` stays quick.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from clast.errors import ClastError
+
+
+class _Commands(click.Group):
+    """Commands whose Clast errors become one message and an exit code."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; print a ClastError without a traceback."""
+        try:
+            return super().invoke(ctx)
+        except ClastError as error:
+            click.echo(str(error), err=True)
+            ctx.exit(error.exit_code)
+
+
+_file = click.argument("file", type=click.Path(path_type=Path))
+_set = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Change one value.")
+_plugin = click.option(
+    "--plugin", "files", multiple=True, type=click.Path(path_type=Path), help="A Python file with a plugin."
+)
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="clast")
+def main() -> None:
+    """Discrete elements for granules that break."""
+
+
+@main.command()
+@_file
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the run.")
+@_set
+@click.option("--threads", type=click.IntRange(min=1), default=1, show_default=True, help="Threads to use.")
+@click.option("--resume", is_flag=True, help="Go on where the run in the folder stopped.")
+def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int, resume: bool) -> None:
+    """Run the scene in FILE."""
+    from clast import run_command
+
+    run_command.run(file, output=output, overrides=overrides, threads=threads, resume=resume)
+
+
+@main.command()
+@_file
+@_set
+@click.option("--build", is_flag=True, help="Pack the particles and tell the exact numbers.")
+def check(file: Path, overrides: tuple[str, ...], build: bool) -> None:
+    """Validate FILE and tell what running it will cost."""
+    from clast.config.scene import load
+
+    scene = load(file, overrides)
+    if build:
+        from clast import build_report
+
+        click.echo(build_report.report(scene))
+        return
+    from clast.config.forecast import forecast
+
+    click.echo(f"{file}: valid\n{forecast(scene).text()}")
+
+
+@main.group(invoke_without_command=True)
+@_plugin
+@click.pass_context
+def plugins(ctx: click.Context, files: tuple[Path, ...]) -> None:
+    """List every part that is installed."""
+    from clast.config.describe import plugins_text
+    from clast.plugins.discovery import discover
+
+    ctx.obj = discover(files)
+    if ctx.invoked_subcommand is None:
+        click.echo(plugins_text(ctx.obj))
+
+
+@plugins.command()
+@click.argument("name")
+@click.pass_obj
+def show(registry: Any, name: str) -> None:
+    """Show the parameters and the source of the part NAME."""
+    from clast.config.describe import part_text
+
+    click.echo(part_text(registry, name))
+
+
+@main.command()
+@_plugin
+def schema(files: tuple[Path, ...]) -> None:
+    """Print the JSON Schema of scene files, for editors."""
+    from clast.config.json_schema import scene_schema
+    from clast.plugins.discovery import discover
+
+    click.echo(json.dumps(scene_schema(discover(files)), indent=2, ensure_ascii=False))
+
+
+@main.command()
+@click.argument("folder", metavar="RUN", type=click.Path(path_type=Path))
+def view(folder: Path) -> None:
+    """Open the recording of RUN, the folder of a run."""
+    from clast import view_command
+
+    view_command.view(folder)

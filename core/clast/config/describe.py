@@ -1,0 +1,136 @@
+"""Descriptions of parts for ``clast plugins``: derived from their parameters' declarations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+from clast.config.json_schema import model_schema
+from clast.errors import PluginError
+from clast.parts.params import Params
+from clast.plugins.nearest import suggestion
+from clast.plugins.registry import Registered, Registry, one_line
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter of a part, as a user needs to know it."""
+
+    name: str
+    kind: str
+    default: str
+    bounds: str
+    meaning: str
+
+
+def parameters(model: type[Params]) -> list[Parameter]:
+    """List the parameters of a part; those of models inside it as ``outer.inner``."""
+    schema = model_schema(model)
+    return list(_parameters(schema, schema.get("$defs", {}), prefix="", depth=0))
+
+
+def plugins_text(registry: Registry) -> str:
+    """Table of all parts by kind, with the plugins that could not be loaded below."""
+    lines: list[str] = []
+    width = max((len(entry.name) for entry in registry), default=0)
+    for kind, entries in groupby(registry, key=lambda entry: entry.kind):
+        lines += ["", f"{kind.replace('_', ' ')}:"]
+        lines += [f"  {each.name:{width}}  {each.part.summary}  [{each.source}]" for each in entries]
+    for failure in registry.failures:
+        text = one_line(failure.error)
+        lines += ["", f"not loaded: plugin {failure.source.plugin!r} ({failure.source}): {text}"]
+    return "\n".join(lines[1:]) if lines else "no plugin is installed; install Clast with 'pip install -e .'"
+
+
+def part_text(registry: Registry, name: str) -> str:
+    """Everything about the parts of one name: summary, parameters, source.
+
+    Raises
+    ------
+    PluginError
+        No part has that name.
+    """
+    found = [entry for entry in registry if name in (entry.name, f"{entry.kind}.{entry.name}")]
+    if not found:
+        raise PluginError(
+            f"no part is named {name!r}; {suggestion(name, {entry.name for entry in registry})}"
+        )
+    return "\n\n".join(_entry_text(entry) for entry in found)
+
+
+def _entry_text(entry: Registered) -> str:
+    lines = [
+        f"{entry.name} ({entry.kind.replace('_', ' ')})",
+        f"  {entry.part.summary}",
+        f"  from plugin {entry.source.plugin!r} ({entry.source}), {entry.file or 'file unknown'}",
+    ]
+    listed = parameters(entry.part.Params)
+    if not listed:
+        return "\n".join([*lines, "  no parameters"])
+    rows = [("parameter", "unit or kind", "default", "bounds", "meaning")]
+    rows += [(each.name, each.kind, each.default, each.bounds, each.meaning) for each in listed]
+    widths = [max(len(row[column]) for row in rows) for column in range(4)]
+    for row in rows:
+        cells = [f"{cell:{width}}" for cell, width in zip(row, widths, strict=False)]
+        lines.append("    " + "  ".join([*cells, row[4]]).rstrip())
+    return "\n".join(lines)
+
+
+def _parameters(
+    schema: Mapping[str, Any], definitions: Mapping[str, Any], prefix: str, depth: int
+) -> Iterator[Parameter]:
+    required = schema.get("required", ())
+    for name, field in schema.get("properties", {}).items():
+        branches = [_followed(branch, definitions) for branch in _branches(field)]
+        yield Parameter(
+            name=prefix + name,
+            kind=" or ".join(dict.fromkeys(_kind(branch) for branch in branches)),
+            default="required" if name in required else _default(field),
+            bounds=", ".join(dict.fromkeys(text for branch in branches if (text := _bounds(branch)))),
+            meaning=field.get("description", ""),
+        )
+        for branch in branches:
+            inner = _followed(branch.get("items", branch), definitions)
+            if "properties" in inner and depth < 3:
+                yield from _parameters(inner, definitions, f"{prefix}{name}.", depth + 1)
+
+
+def _branches(field: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    return list(field.get("anyOf") or field.get("oneOf") or [field])
+
+
+def _followed(schema: Mapping[str, Any], definitions: Mapping[str, Any]) -> Mapping[str, Any]:
+    if "$ref" not in schema:
+        return schema
+    target = definitions.get(str(schema["$ref"]).removeprefix("#/$defs/"), {})
+    return {**target, **{key: value for key, value in schema.items() if key != "$ref"}}
+
+
+def _kind(schema: Mapping[str, Any]) -> str:
+    if "x-unit" in schema:
+        return "number" if schema["x-unit"] == "1" else str(schema["x-unit"])
+    if "enum" in schema or "const" in schema:
+        return " | ".join(str(each) for each in schema.get("enum", [schema.get("const")]))
+    if "prefixItems" in schema:
+        return "[" + ", ".join(_kind(each) for each in schema["prefixItems"]) + "]"
+    if schema.get("type") == "array":
+        return "list"
+    words = {"string": "text", "boolean": "true | false", "object": "mapping", "null": "none"}
+    kind = str(schema.get("type", "anything"))
+    return words.get(kind, kind)
+
+
+def _default(field: Mapping[str, Any]) -> str:
+    default = field.get("default")
+    if default is None:
+        return "none"
+    if isinstance(default, bool):
+        return str(default).lower()
+    return f"{default:g}" if isinstance(default, float) else str(default)
+
+
+def _bounds(schema: Mapping[str, Any]) -> str:
+    signs = {"exclusiveMinimum": ">", "minimum": "≥", "exclusiveMaximum": "<", "maximum": "≤"}
+    return ", ".join(f"{sign} {schema[key]:g}" for key, sign in signs.items() if key in schema)

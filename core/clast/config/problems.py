@@ -1,0 +1,143 @@
+"""Problems: what pydantic finds, said in the words of the scene file."""
+
+from __future__ import annotations
+
+import re
+import typing
+from collections.abc import Collection, Mapping, Sequence
+from typing import Annotated, Any, Union
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
+
+from clast.config.document import Document, KeyPath, Problem
+from clast.plugins.nearest import nearest_name, suggestion
+
+_KIND = "clast"
+_MISSING = "clast_missing"
+
+
+def problem(loc: KeyPath, text: str, given: Any = None) -> InitErrorDetails:
+    """One finished message, for raising out of a validator with :func:`refuse`."""
+    return {"type": PydanticCustomError(_KIND, "{text}", {"text": text}), "loc": loc, "input": given}
+
+
+def missing(loc: KeyPath, text: str) -> InitErrorDetails:
+    """Like :func:`problem`, for a key that is not there."""
+    return {"type": PydanticCustomError(_MISSING, "{text}", {"text": text}), "loc": loc, "input": None}
+
+
+def refuse(problems: Sequence[InitErrorDetails]) -> ValidationError:
+    """Error that carries the problems on to whoever validates the whole."""
+    return ValidationError.from_exception_data("scene", list(problems))
+
+
+def explain(
+    error: ValidationError, model: type[BaseModel], also: Collection[str] = ()
+) -> list[InitErrorDetails]:
+    """Put every error of a validation into plain words.
+
+    Parameters
+    ----------
+    error : ValidationError
+    model : type
+        The model that was validated, for the names of its keys.
+    also : collection of str
+        Keys allowed beside the model's own.
+    """
+    details = []
+    for found in error.errors(include_url=False):
+        loc = tuple(step for step in found["loc"] if not _is_tag(step))
+        text = _text(found, loc, model, also)
+        make = missing if found["type"] in ("missing", _MISSING) else problem
+        details.append(make(loc, text))
+    return details
+
+
+def located(error: ValidationError, model: type[BaseModel], document: Document) -> list[Problem]:
+    """Problems of a scene, each at a key path that exists in the document (or at a key that is missing)."""
+    problems = []
+    for details in explain(error, model):
+        kind = details["type"]
+        assert isinstance(kind, PydanticCustomError)
+        path = details.get("loc", ())
+        last = path[-1:] if kind.type == _MISSING else ()
+        path = path[: len(path) - len(last)]
+        while path and not document.has(path):
+            path = path[:-1]
+        problems.append(Problem((*path, *last), str(kind)))
+    return problems
+
+
+def _is_tag(step: str | int) -> bool:
+    """Tell names of union branches, which pydantic puts into paths, from keys."""
+    return isinstance(step, str) and step.startswith("<") and step.endswith(">")
+
+
+def _text(found: ErrorDetails, loc: KeyPath, model: type[BaseModel], also: Collection[str]) -> str:
+    context: Mapping[str, Any] = found.get("ctx", {})
+    match found["type"]:
+        case "extra_forbidden":
+            known = fields_at(model, loc[:-1]) | (set(also) if len(loc) == 1 else set())
+            return f"not a known key; {suggestion(str(loc[-1]), known)}"
+        case "missing":
+            return _missing_text(model, loc)
+        case "value_error" | "assertion_error":
+            return str(context["error"])
+        case "literal_error" | "enum":
+            return _choice_text(found["input"], str(context["expected"]))
+        case "model_type" | "dict_type" | "model_attributes_type":
+            return f"a mapping 'key: value' is needed; given {_short(found['input'])}"
+        case "clast" | "clast_missing":
+            return found["msg"]
+    text = re.sub(r"^\w+ should ", "must ", found["msg"])
+    return f"{text}; given {_short(found['input'])}"
+
+
+def _missing_text(model: type[BaseModel], loc: KeyPath) -> str:
+    owner = model_at(model, loc[:-1])
+    field = owner.model_fields.get(str(loc[-1])) if owner else None
+    meaning = f": {field.description}" if field is not None and field.description else ""
+    return f"this key is missing{meaning}"
+
+
+def _choice_text(given: Any, expected: str) -> str:
+    near = nearest_name(str(given), re.findall(r"'([^']*)'", expected))
+    return f"{_short(given)} is not allowed; " + (f"did you mean {near!r}?" if near else f"write {expected}")
+
+
+def _short(given: Any) -> str:
+    text = repr(given)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def fields_at(model: type[BaseModel], path: KeyPath) -> set[str]:
+    """Names of the fields of the model found at a path inside another one."""
+    owner = model_at(model, path)
+    return set(owner.model_fields) if owner else set()
+
+
+def model_at(model: type[BaseModel], path: KeyPath) -> type[BaseModel] | None:
+    """Model found at a path inside another one: through optional fields, lists, tuples and mappings."""
+    kinds: list[Any] = [model]
+    for step in path:
+        kinds = [inner for kind in kinds for inner in _inside(kind, step)]
+    models = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+    return models[0] if models else None
+
+
+def _inside(kind: Any, step: str | int) -> list[Any]:
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        field = kind.model_fields.get(str(step))
+        return _branches(field.annotation) if field is not None else []
+    arguments = [each for each in typing.get_args(kind) if each is not Ellipsis]
+    return _branches(arguments[-1]) if arguments else []
+
+
+def _branches(annotation: Any) -> list[Any]:
+    origin = typing.get_origin(annotation)
+    if origin is Annotated:
+        return _branches(typing.get_args(annotation)[0])
+    if origin is Union or str(origin) == "<class 'types.UnionType'>":
+        return [branch for each in typing.get_args(annotation) for branch in _branches(each)]
+    return [annotation]

@@ -1,0 +1,123 @@
+"""References: names in one section of a scene that must exist in another.
+
+Checked on the data as written, so that these problems are told together with all others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations_with_replacement
+from typing import Any
+
+from clast.config.document import KeyPath, Problem
+from clast.plugins.nearest import suggestion
+
+
+def check_references(data: Mapping[str, Any]) -> list[Problem]:
+    """Find names of materials, walls and pairs of materials that do not exist, and sections that are missing.
+
+    A part's parameter named ``material`` counts as the name of a material wherever it stands under
+    ``particles`` or in a wall.
+    """
+    return [
+        *_materials(data),
+        *_compression(data),
+        *_pair_names(data),
+        *_pairs_needed(data),
+    ]
+
+
+def _section(data: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    found = data.get(name)
+    return found if isinstance(found, Mapping) else {}
+
+
+def _materials(data: Mapping[str, Any]) -> Iterator[Problem]:
+    known = _section(data, "materials")
+    for path, name in _materials_used(data):
+        if name not in known:
+            yield Problem(path, f"there is no material {name!r}; {suggestion(name, map(str, known))}")
+
+
+def _materials_used(data: Mapping[str, Any]) -> Iterator[tuple[KeyPath, str]]:
+    yield from _named_material(data.get("particles"), ("particles",))
+    for name, wall in _section(data, "walls").items():
+        if isinstance(wall, Mapping) and isinstance(wall.get("material"), str):
+            yield ("walls", name, "material"), wall["material"]
+    between = _section(_section(data, "bonds"), "between")
+    listed = between.get("materials")
+    for index, name in enumerate(listed if isinstance(listed, list | tuple) else ()):
+        if isinstance(name, str):
+            yield ("bonds", "between", "materials", index), name
+
+
+def _named_material(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
+    if isinstance(value, Mapping):
+        for key, inner in value.items():
+            if key == "material" and isinstance(inner, str):
+                yield (*path, key), inner
+            else:
+                yield from _named_material(inner, (*path, key))
+    elif isinstance(value, list | tuple):
+        for index, inner in enumerate(value):
+            yield from _named_material(inner, (*path, index))
+
+
+def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
+    walls = _section(data, "walls")
+    compression = _section(data, "compression")
+    for key in ("upper", "lower"):
+        name = compression.get(key)
+        if isinstance(name, str) and name not in walls:
+            yield Problem(("compression", key), f"there is no wall {name!r}; {suggestion(name, walls)}")
+    if "upper" in compression and compression["upper"] == compression.get("lower"):
+        yield Problem(("compression", "lower"), "upper and lower must be two different walls")
+    end = _section(_section(data, "time"), "end")
+    if "strain" in end and not compression:
+        yield Problem(
+            ("time", "end", "strain"),
+            "a strain needs the section 'compression', which says how it is measured",
+        )
+
+
+def _pair_names(data: Mapping[str, Any]) -> Iterator[Problem]:
+    known = [str(name) for name in _section(data, "materials")]
+    names = {frozenset(pair): "-".join(pair) for pair in combinations_with_replacement(known, 2)}
+    spelt = {f"{a}-{b}": frozenset((a, b)) for a in known for b in known}
+    seen: dict[frozenset[str], str] = {}
+    for name in _section(_section(data, "contacts"), "pairs"):
+        path = ("contacts", "pairs", name)
+        if name == "default":
+            continue
+        if name not in spelt:
+            allowed = [*names.values(), "default"]
+            yield Problem(path, f"not a pair of materials, 'first-second'; {suggestion(str(name), allowed)}")
+        elif spelt[name] in seen:
+            yield Problem(path, f"the same pair is given as {seen[spelt[name]]!r}; remove one of them")
+        else:
+            seen[spelt[name]] = name
+
+
+def _pairs_needed(data: Mapping[str, Any]) -> Iterator[Problem]:
+    contacts = data.get("contacts")
+    if not isinstance(contacts, Mapping):
+        return
+    pairs = contacts.get("pairs")
+    given = pairs if isinstance(pairs, Mapping) else {}
+    if "default" in given:
+        return
+    grains = sorted({name for _, name in _named_material(data.get("particles"), ())})
+    walls = sorted({str(wall.get("material")) for wall in _section(data, "walls").values() if _is_wall(wall)})
+    needed = [
+        *combinations_with_replacement(grains, 2),
+        *((grain, wall) for grain in grains for wall in walls),
+    ]
+    for first, second in dict.fromkeys(needed):
+        if f"{first}-{second}" not in given and f"{second}-{first}" not in given:
+            where = ("contacts", "pairs") if "pairs" in contacts else ("contacts",)
+            text = f"'{first}-{second}' is needed, or 'default' for all pairs that are not listed"
+            yield Problem(where, text)
+
+
+def _is_wall(wall: Any) -> bool:
+    return isinstance(wall, Mapping) and isinstance(wall.get("material"), str)

@@ -1,0 +1,237 @@
+"""Scene: one YAML file, validated against the parts that plugins offer, in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from enum import Enum
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, ValidationError
+
+from clast.config.choice import Chosen, PartOf, WallChoice, WallOf, default_part, plain_fields
+from clast.config.document import Document, Problem
+from clast.config.overrides import apply_overrides
+from clast.config.problems import located
+from clast.config.references import check_references
+from clast.config.sections import (
+    Bonds,
+    Boundaries,
+    Compression,
+    Contacts,
+    Material,
+    Neighbours,
+    Output,
+    ReferencePoint,
+    TimeSettings,
+)
+from clast.config.yaml_loader import read_document
+from clast.errors import ConfigError, PluginError
+from clast.parts.params import Params
+from clast.plugins.discovery import discover, load_file
+from clast.plugins.registry import Registry
+
+ADDED_WHEN_MISSING = ("output", "neighbours", "boundaries", "walls")
+"""Sections that ``--set`` and ``changed`` may add to a scene that does not have them."""
+
+Generators = (
+    Annotated[tuple[Annotated[Chosen, PartOf("generator")], ...], Field(min_length=1), Tag("<list>")]
+    | Annotated[Chosen, PartOf("generator"), Tag("<one>")]
+)
+
+
+def _one_or_list(given: Any) -> str:
+    return "<list>" if isinstance(given, list | tuple) else "<one>"
+
+
+class SceneConfig(Params):
+    """A scene of granules: what they are made of, what is done to them, and what is kept.
+
+    Made by :func:`load`, validated and in SI. Every choice of a part is a
+    :class:`clast.config.choice.Chosen`, every wall a :class:`clast.config.choice.WallChoice`. ``particles``
+    is a single :class:`Chosen` or a tuple of them, as written; :attr:`generators` is always a tuple.
+    """
+
+    name: Annotated[
+        str,
+        Field(pattern=r"^[^/\\\x00]+$", description="Name of the scene; by default that of the file"),
+    ] = "scene"
+    description: Annotated[str, Field(description="What the scene shows")] = ""
+    plugins: Annotated[
+        tuple[str, ...], Field(description="Python files with plugins, relative to the scene file")
+    ] = ()
+    materials: Annotated[dict[str, Material], Field(min_length=1, description="Materials by name")]
+    particles: Annotated[
+        Generators, Discriminator(_one_or_list), Field(description="One generator, or a list of them")
+    ]
+    bonds: Annotated[Bonds | None, Field(description="Solid bridges between particles")] = None
+    contacts: Annotated[Contacts | None, Field(description="Contact of particles and walls")] = None
+    walls: Annotated[dict[str, Annotated[WallChoice, WallOf()]], Field(description="Walls by name")] = Field(
+        default_factory=dict
+    )
+    body_forces: Annotated[
+        tuple[Annotated[Chosen, PartOf("body_force")], ...], Field(description="Forces that act everywhere")
+    ] = ()
+    boundaries: Annotated[Boundaries, Field(description="Limits of the scene")] = Boundaries()
+    compression: Annotated[
+        Compression | None, Field(description="How strain and stress are read off two plates")
+    ] = None
+    integrator: Annotated[Chosen, PartOf("integrator"), Field(description="Time integrator")] = default_part(
+        "midstep"
+    )
+    neighbours: Annotated[Neighbours, Field(description="How neighbours are found")] = Field(
+        default_factory=dict, validate_default=True
+    )
+    time: Annotated[TimeSettings, Field(description="Time step and end of the run")]
+    output: Annotated[Output, Field(description="What a run leaves behind")] = Field(
+        default_factory=dict, validate_default=True
+    )
+    reference: Annotated[
+        tuple[ReferencePoint, ...], Field(description="Measured crushing points, drawn beside the curve")
+    ] = ()
+
+    _document: Document = PrivateAttr()
+    _registry: Registry = PrivateAttr()
+
+    @property
+    def generators(self) -> tuple[Chosen, ...]:
+        """The chosen generators, in order."""
+        return (self.particles,) if isinstance(self.particles, Chosen) else self.particles
+
+    @property
+    def chosen(self) -> tuple[Chosen, ...]:
+        """Every part the scene uses, in the order of the sections."""
+        return tuple(_chosen_in(self))
+
+    @property
+    def document(self) -> Document:
+        """The scene as written, with the line of every key."""
+        return self._document
+
+    @property
+    def registry(self) -> Registry:
+        """The parts the scene was validated against."""
+        return self._registry
+
+    @property
+    def folder(self) -> Path:
+        """Folder that relative paths in the scene start from."""
+        return self._document.folder
+
+    def resolved(self) -> dict[str, Any]:
+        """Plain data in SI with every default written out; :func:`from_mapping` gives the same scene again.
+
+        Paths (the scene's ``plugins``, and parameters declared as ``Path``) become absolute.
+        """
+        plain = _plain(self, self.folder.resolve())
+        plain["plugins"] = [str((self.folder / file).resolve()) for file in self.plugins]
+        return {key: value for key, value in plain.items() if value is not None}
+
+    def changed(self, changes: Mapping[str, Any]) -> SceneConfig:
+        """Copy with values replaced, validated anew.
+
+        Parameters
+        ----------
+        changes : mapping
+            Key path, as ``"particles.seed"`` or ``"walls.upper.motion.velocity"`` -> value, as one would
+            write it in YAML (``3``, ``"0.2 mm"``, a list, a dict).
+
+        Raises
+        ------
+        ConfigError
+            A path whose parent does not exist, or a value that is not allowed.
+        """
+        document = self._document
+        for key, value in changes.items():
+            written = f"change of {key!r}"
+            document = document.changed(tuple(key.split(".")), value, written, ADDED_WHEN_MISSING)
+        return build(document)
+
+
+def load(path: str | Path, overrides: Iterable[str] = ()) -> SceneConfig:
+    """Read and validate a scene file.
+
+    Parameters
+    ----------
+    path : path
+        A YAML file.
+    overrides : iterable of str
+        ``key.path=value`` each, laid over the file before it is validated.
+
+    Raises
+    ------
+    ConfigError
+        All problems at once, each with file, line, column and key path.
+    """
+    return build(apply_overrides(read_document(path), overrides, ADDED_WHEN_MISSING))
+
+
+def from_mapping(data: Mapping[str, Any], folder: str | Path = ".", name: str = "scene") -> SceneConfig:
+    """Validate a scene that is given as plain data; ``folder`` is where relative paths start."""
+    return build(Document(name, Path(folder), dict(data)))
+
+
+def build(document: Document) -> SceneConfig:
+    """Validate a document.
+
+    Raises
+    ------
+    ConfigError
+        All problems at once.
+    """
+    registry, problems = _plugins(document)
+    problems += check_references(document.data)
+    data = dict(document.data)
+    data.setdefault("name", Path(document.name).stem)
+    scene = None
+    try:
+        scene = SceneConfig.model_validate(data, context={"registry": registry})
+    except ValidationError as error:
+        problems += located(error, SceneConfig, document)
+    if problems or scene is None:
+        raise ConfigError(document.report(problems))
+    scene._document, scene._registry = document, registry
+    return scene
+
+
+def _plugins(document: Document) -> tuple[Registry, list[Problem]]:
+    """Registry with the scene's own plugin files; a file that fails is a problem at its place in the list."""
+    registry, problems = discover(), []
+    listed = document.data.get("plugins")
+    for index, file in enumerate(listed if isinstance(listed, list | tuple) else ()):
+        if isinstance(file, str):
+            try:
+                load_file(document.folder / file, registry)
+            except PluginError as error:
+                problems.append(Problem(("plugins", index), str(error)))
+    return registry, problems
+
+
+def _chosen_in(value: Any) -> Iterable[Chosen]:
+    if isinstance(value, Chosen):
+        yield value
+    elif isinstance(value, WallChoice):
+        yield value.shape
+        if value.motion is not None:
+            yield value.motion
+    elif isinstance(value, BaseModel):
+        yield from _chosen_in([getattr(value, name) for name in type(value).model_fields])
+    elif isinstance(value, Mapping):
+        yield from _chosen_in(list(value.values()))
+    elif isinstance(value, list | tuple):
+        for each in value:
+            yield from _chosen_in(each)
+
+
+def _plain(value: Any, folder: Path) -> Any:
+    if isinstance(value, Chosen | WallChoice):
+        return _plain(value.plain(), folder)
+    if isinstance(value, Params):
+        return _plain(plain_fields(value), folder)
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner, folder) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(inner, folder) for inner in value]
+    if isinstance(value, Path):
+        return str(folder / value)
+    return value.value if isinstance(value, Enum) else value

@@ -1,0 +1,223 @@
+"""Sections of a scene file: one model each, with unit, bound and meaning of every key."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
+
+from clast.config.choice import Chosen, PartOf, default_part, registry_of
+from clast.config.quantities import Density, Length, Number, Point, Stress, Time
+from clast.parts.params import Params
+
+DEFAULT_WRITERS = ("recording", "vtk", "figure", "picture")
+
+
+class Material(Params):
+    """What particles and walls are made of."""
+
+    density: Annotated[Density, Field(gt=0, description="Mass per volume of a primary")]
+    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E")]
+    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, description="Poisson's ratio ν")]
+
+
+class BondRange(Params):
+    """Which pairs of particles are bonded."""
+
+    max_gap: Annotated[Length, Field(ge=0, description="Largest gap between surfaces that is bonded")]
+    min_gap: Annotated[
+        Length | None, Field(description="Smallest gap that is bonded; overlaps are negative gaps")
+    ] = None
+    diameter: Annotated[
+        Annotated[Length, Field(gt=0)] | None,
+        Field(description="Diameter of the bonds; by default the smaller particle's"),
+    ] = None
+    materials: Annotated[
+        tuple[str, ...] | None, Field(description="Materials whose particles are bonded; by default all")
+    ] = None
+
+    @model_validator(mode="after")
+    def _range_is_not_empty(self) -> BondRange:
+        if self.min_gap is not None and self.min_gap > self.max_gap:
+            raise ValueError(f"min_gap {self.min_gap:g} m is larger than max_gap {self.max_gap:g} m")
+        return self
+
+
+class Bonds(Params):
+    """Solid bridges between particles."""
+
+    between: Annotated[
+        BondRange | None, Field(description="Bond near pairs; without it only the generators' own bonds")
+    ] = None
+    kinematics: Annotated[
+        Chosen, PartOf("bond_kinematics"), Field(description="How a bond's deformation is measured")
+    ] = default_part("total")
+    model: Annotated[Chosen, PartOf("bond_model"), Field(description="Bond model")]
+    damping: Annotated[Number, Field(ge=0, description="Damping ratio of bonds; 0 is none")] = 0.0
+    fade_steps: Annotated[int, Field(ge=0, description="Steps over which a broken bond's load fades")] = 0
+
+
+class PairSettings(Params):
+    """How two materials interact in contact."""
+
+    restitution: Annotated[Number, Field(ge=0, le=1, description="Coefficient of restitution")]
+    sliding_friction: Annotated[Number, Field(ge=0, description="Coefficient of sliding friction")] = 0.0
+    rolling_friction: Annotated[Number, Field(ge=0, description="Coefficient of rolling friction")] = 0.0
+
+
+class Contacts(Params):
+    """Contact between particles, and between particles and walls."""
+
+    law: Annotated[Chosen, PartOf("contact_law"), Field(description="Contact law")]
+    bonded_pairs: Annotated[bool, Field(description="Whether bonded particles also touch")] = True
+    lever: Annotated[
+        Literal["contact_point", "radius"],
+        Field(
+            description="Where contact forces act: at the contact point, which conserves angular momentum, "
+            "or a radius away"
+        ),
+    ] = "contact_point"
+    pairs: Annotated[
+        dict[str, PairSettings],
+        Field(description="Settings by pair of materials, 'glass-steel', and 'default' for the others"),
+    ] = Field(default_factory=dict)
+
+    def pair(self, first: str, second: str) -> PairSettings | None:
+        """Find the settings of two materials in either order; None where not even ``default`` is given."""
+        for name in (f"{first}-{second}", f"{second}-{first}", "default"):
+            if name in self.pairs:
+                return self.pairs[name]
+        return None
+
+
+class WallSettings(Params):
+    """What every wall has beside its shape."""
+
+    material: Annotated[str, Field(description="Name of the wall's material")]
+    motion: Annotated[
+        Annotated[Chosen, PartOf("motion")] | None,
+        Field(description="How the wall moves; by default it rests"),
+    ] = None
+
+
+class Domain(Params):
+    """A box; particles that leave it are removed and counted."""
+
+    lower: Annotated[Point, Field(description="Corner with the smallest coordinates")]
+    upper: Annotated[Point, Field(description="Corner with the largest coordinates")]
+
+    @model_validator(mode="after")
+    def _is_a_box(self) -> Domain:
+        if any(low >= high for low, high in zip(self.lower, self.upper, strict=True)):
+            raise ValueError("every coordinate of 'lower' must be smaller than that of 'upper'")
+        return self
+
+
+class Boundaries(Params):
+    """Limits of the scene."""
+
+    domain: Annotated[Domain | None, Field(description="Box that particles must not leave")] = None
+
+
+class Compression(Params):
+    """How strain and stress are read off two plates."""
+
+    upper: Annotated[str, Field(description="Name of the upper wall")]
+    lower: Annotated[str, Field(description="Name of the lower wall")]
+    height: Annotated[Length, Field(gt=0, description="Height that strain refers to")]
+    diameter: Annotated[Length, Field(gt=0, description="Diameter of the section that stress refers to")]
+
+
+class Neighbours(Params):
+    """How particles that may touch are found."""
+
+    search: Annotated[Chosen, PartOf("neighbour_search"), Field(description="Neighbour search")] = (
+        default_part("linked_cells")
+    )
+    skin: Annotated[
+        Annotated[Literal["auto"], Tag("<auto>")] | Annotated[Length, Field(gt=0), Tag("<length>")],
+        Discriminator(lambda given: "<auto>" if given == "auto" else "<length>"),
+        Field(description="Width by which lists reach beyond contact; 'auto' chooses it"),
+    ] = "auto"
+
+
+class StepRule(Params):
+    """Time step from a rule."""
+
+    rule: Annotated[Literal["paper"], Field(description="Which rule")]
+    factor: Annotated[Number, Field(gt=0, description="Share of the rule's limit")] = 0.1
+
+
+class End(Params):
+    """When a run ends: at a strain, a time or a number of steps."""
+
+    strain: Annotated[Annotated[Number, Field(gt=0)] | None, Field(description="Compression to reach")] = None
+    time: Annotated[Annotated[Time, Field(gt=0)] | None, Field(description="Simulated time to reach")] = None
+    steps: Annotated[Annotated[int, Field(gt=0)] | None, Field(description="Steps to take")] = None
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> End:
+        given = [name for name in ("strain", "time", "steps") if getattr(self, name) is not None]
+        if len(given) != 1:
+            found = " and ".join(given) or "none of them"
+            raise ValueError(f"exactly one of strain, time and steps is needed; given {found}")
+        return self
+
+
+def _step_branch(given: Any) -> str:
+    return "<rule>" if isinstance(given, dict | StepRule) else "<time>"
+
+
+class TimeSettings(Params):
+    """Time step, mass scaling and end of the run."""
+
+    step: Annotated[
+        Annotated[StepRule, Tag("<rule>")] | Annotated[Time, Field(gt=0), Tag("<time>")],
+        Discriminator(_step_branch),
+        Field(description="A fixed time step, or a rule"),
+    ] = StepRule(rule="paper")
+    mass_scaling: Annotated[Number, Field(ge=1, description="Factor on all masses")] = 1.0
+    end: Annotated[End, Field(description="When the run ends")]
+    allow_unstable: Annotated[bool, Field(description="Allow a time step above the limit")] = False
+
+
+def _writers_or_default(given: Any, info: ValidationInfo) -> Any:
+    if given is not None:
+        return given
+    known = registry_of(info).names("writer")
+    return [name for name in DEFAULT_WRITERS if name in known]
+
+
+class Tracks(Params):
+    """Particles and bonds that are followed closely: their full state at every sample."""
+
+    particles: Annotated[tuple[int, ...], Field(description="Numbers of particles, from 0")] = ()
+    bonds: Annotated[tuple[int, ...], Field(description="Numbers of bonds, from 0")] = ()
+
+
+class Output(Params):
+    """What a run leaves behind."""
+
+    samples: Annotated[int, Field(ge=2, description="Points on the curves")] = 500
+    frames: Annotated[int, Field(ge=0, description="States kept of all particles and bonds")] = 100
+    tracks: Annotated[Tracks, Field(description="Particles and bonds to follow at every sample")] = Tracks()
+    force: Annotated[
+        Literal["instantaneous", "mean"],
+        Field(description="Wall force at the sample, or its mean since the sample before"),
+    ] = "instantaneous"
+    writers: Annotated[
+        tuple[Annotated[Chosen, PartOf("writer")], ...],
+        BeforeValidator(_writers_or_default),
+        Field(description="What is written when the run ends; by default all of Clast's own"),
+    ] = default_part(None)
+    checkpoint: Annotated[Time, Field(gt=0, description="Wall-clock time between checkpoints")] = 600.0
+
+
+class ReferencePoint(Params):
+    """A measured crushing point, drawn beside the curve."""
+
+    label: Annotated[str, Field(description="What stands in the legend")]
+    strain: Annotated[Number, Field(description="Strain at crushing")]
+    stress: Annotated[Stress, Field(description="Stress at crushing")]
+    strain_deviation: Annotated[Number, Field(ge=0, description="Scatter of the strain")] = 0.0
+    stress_deviation: Annotated[Stress, Field(ge=0, description="Scatter of the stress")] = 0.0

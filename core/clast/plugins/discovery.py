@@ -1,0 +1,212 @@
+"""Finding plugins: installed ones through entry points, single files named in a scene.
+
+Installed plugins are loaded one by one. One that fails is remembered, and reported only when a scene needs a
+part that is missing: a broken plugin must not stop the scenes that do without it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from importlib.machinery import SourceFileLoader
+from importlib.metadata import EntryPoint, entry_points
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pluggy
+
+from clast.errors import PluginError
+from clast.plugins import hookspec
+from clast.plugins.nearest import suggestion
+from clast.plugins.registry import Failure, NameTakenError, Registry, Source, one_line
+
+GROUP = "clast"
+CHOICE = "CLAST_PLUGINS"
+OWN_DISTRIBUTION = "clast"
+
+
+def discover(files: Sequence[str | Path] = (), folder: Path | None = None) -> Registry:
+    """Registry with the parts of every installed plugin, and of the files named.
+
+    Parameters
+    ----------
+    files : sequence of paths
+        Python files that hold plugins, as a scene names them under ``plugins``.
+    folder : Path, optional
+        Folder that relative paths start from; the working folder by default.
+
+    Raises
+    ------
+    PluginError
+        A file cannot be loaded, two plugins want one name, or ``CLAST_PLUGINS`` names an unknown plugin.
+
+    Notes
+    -----
+    ``CLAST_PLUGINS=none`` leaves out all installed plugins but Clast's own, ``CLAST_PLUGINS=a,b`` all but
+    Clast's own and those two.
+    """
+    registry = _installed(os.environ.get(CHOICE)).copy()
+    for file in files:
+        load_file((folder or Path()) / file, registry)
+    return registry
+
+
+@lru_cache(maxsize=8)
+def _installed(choice: str | None) -> Registry:
+    registry = Registry()
+    load_entry_points(entry_points(group=GROUP), choice, registry)
+    return registry
+
+
+def load_entry_points(found: Iterable[EntryPoint], choice: str | None, registry: Registry) -> None:
+    """Load entry points one by one into ``registry``; keep the error of each one that fails.
+
+    Raises
+    ------
+    PluginError
+        Two distributions share an entry-point name, two plugins a part's name, or ``choice`` names no plugin.
+    """
+    points = sorted(found, key=lambda point: (source_of(point).origin != OWN_DISTRIBUTION, point.name))
+    _refuse_shared_names(points)
+    for point in _chosen(points, choice):
+        source = source_of(point)
+        try:
+            register(point.load(), source, registry)
+        except NameTakenError:
+            raise
+        except Exception as error:
+            registry.failures.append(Failure(source, error))
+
+
+def source_of(point: EntryPoint) -> Source:
+    """Distribution and version behind an entry point."""
+    if point.dist is None:
+        return Source(point.name, origin=point.value)
+    return Source(point.name, origin=point.dist.name, version=point.dist.version)
+
+
+def register(plugin: Any, source: Source, registry: Registry) -> None:
+    """Check a loaded plugin and let it register its parts.
+
+    Raises
+    ------
+    PluginError
+        It states no ``CLAST_API`` or another one, or has no ``clast_register`` marked with ``hookimpl``.
+    """
+    _check_api(plugin, source)
+    manager = pluggy.PluginManager(hookspec.PROJECT)
+    manager.add_hookspecs(hookspec)
+    manager.register(plugin, name=source.plugin)
+    try:
+        manager.check_pending()
+    except pluggy.PluginValidationError as error:
+        raise PluginError(
+            f"plugin {source.plugin!r} ({source}): {error}; the only hook is 'clast_register'"
+        ) from None
+    if not manager.hook.clast_register.get_hookimpls():
+        raise PluginError(
+            f"plugin {source.plugin!r} ({source}) registers nothing: it needs a function "
+            "'clast_register(registry)' marked with '@hookimpl' (from clast import hookimpl)"
+        )
+    with registry.registering(source):
+        try:
+            manager.hook.clast_register(registry=registry)
+        except Exception as error:
+            error.add_note(f"raised by clast_register of plugin {source.plugin!r} ({source})")
+            raise
+
+
+def load_file(path: Path, registry: Registry) -> None:
+    """Load one Python file as a plugin.
+
+    The module's name holds a digest of path and contents, so an edited file is never taken for its old self.
+
+    Raises
+    ------
+    PluginError
+        The file is missing, raises when executed, or is not a plugin.
+    """
+    try:
+        path = path.resolve(strict=True)
+        digest = hashlib.sha256(f"{path}\0".encode() + path.read_bytes()).hexdigest()[:12]
+    except OSError as error:
+        raise PluginError(f"plugin file {path}: {error.strerror or error}") from None
+    source = Source(plugin=path.name, origin=str(path))
+    try:
+        module = _execute(path, f"clast_plugin_file_{path.stem}_{digest}")
+        register(module, source, registry)
+    except PluginError:
+        raise
+    except Exception as error:
+        raise PluginError(f"plugin file {path}{_line_in(path, error)}: {one_line(error)}") from error
+
+
+def _execute(path: Path, name: str) -> ModuleType:
+    if name in sys.modules:
+        return sys.modules[name]
+    loader = SourceFileLoader(name, str(path))
+    spec = spec_from_loader(name, loader)
+    if spec is None:
+        raise PluginError(f"plugin file {path}: Python cannot load it")
+    module = module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        # not exec_module of the loader: its .pyc is trusted by time stamp, too coarse for a file just edited
+        exec(loader.source_to_code(path.read_bytes(), str(path)), module.__dict__)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+def _line_in(path: Path, error: BaseException) -> str:
+    line = error.lineno if isinstance(error, SyntaxError) else None
+    step = error.__traceback__
+    while step is not None:
+        if step.tb_frame.f_code.co_filename == str(path):
+            line = step.tb_lineno
+        step = step.tb_next
+    return f":{line}" if line else ""
+
+
+def _check_api(plugin: Any, source: Source) -> None:
+    stated = getattr(plugin, "CLAST_API", None)
+    if stated == hookspec.API_VERSION:
+        return
+    who = f"plugin {source.plugin!r} ({source})"
+    if stated is None:
+        raise PluginError(f"{who} does not state its API; add 'CLAST_API = {hookspec.API_VERSION}' to it")
+    raise PluginError(
+        f"{who} is written for CLAST_API {stated}, this Clast speaks {hookspec.API_VERSION}; "
+        "update the plugin or Clast"
+    )
+
+
+def _refuse_shared_names(points: Sequence[EntryPoint]) -> None:
+    owners: dict[str, Source] = {}
+    for point in points:
+        source = source_of(point)
+        other = owners.setdefault(point.name, source)
+        if other != source:
+            raise PluginError(
+                f"two distributions bring a plugin named {point.name!r}: {other} and {source}; "
+                "uninstall one of them, or rename its entry point"
+            )
+
+
+def _chosen(points: Sequence[EntryPoint], choice: str | None) -> list[EntryPoint]:
+    own = [point for point in points if source_of(point).origin == OWN_DISTRIBUTION]
+    if choice is None or not choice.strip():
+        return list(points)
+    if choice.strip() == "none":
+        return own
+    wanted = {name.strip() for name in choice.split(",") if name.strip()}
+    known = {point.name for point in points}
+    for name in sorted(wanted - known):
+        raise PluginError(f"{CHOICE}: no plugin named {name!r} is installed; {suggestion(name, known)}")
+    return [point for point in points if point in own or point.name in wanted]

@@ -1,0 +1,261 @@
+"""Registry: every part by kind and name, and where it came from."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from clast.errors import PluginError
+from clast.parts.params import Params
+from clast.plugins.nearest import suggestion
+
+if TYPE_CHECKING:
+    from clast.parts.bond_kinematics import BondKinematics
+    from clast.parts.bond_model import BondModel
+    from clast.parts.contact_law import ContactLaw
+    from clast.parts.generator import Generator
+    from clast.parts.integrator import Integrator
+    from clast.parts.neighbour_search import NeighbourSearch
+    from clast.parts.wall import BodyForce, Motion, Wall
+    from clast.parts.writer import Writer
+
+KINDS = (
+    "generator",
+    "bond_model",
+    "bond_kinematics",
+    "contact_law",
+    "integrator",
+    "neighbour_search",
+    "wall",
+    "motion",
+    "body_force",
+    "writer",
+)
+_NAME = re.compile(r"[a-z][a-z0-9_]*")
+
+
+class NameTakenError(PluginError):
+    """Two plugins bring a part of one kind under one name."""
+
+
+class Part(Protocol):
+    """What every part offers, whatever its kind."""
+
+    @property
+    def summary(self) -> str:
+        """One line for ``clast plugins``."""
+
+    @property
+    def Params(self) -> type[Params]:
+        """What the user writes for the part."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a plugin comes from.
+
+    Attributes
+    ----------
+    plugin : str
+        Name of the entry point, or of the file.
+    origin : str
+        Distribution that brought it, or the path of the file.
+    version : str
+        Version of the distribution; empty for a file.
+    """
+
+    plugin: str
+    origin: str
+    version: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.origin} {self.version}".strip()
+
+
+@dataclass(frozen=True)
+class Registered:
+    """A part under its name."""
+
+    kind: str
+    name: str
+    part: Any
+    source: Source
+
+    @property
+    def file(self) -> Path | None:
+        """File that declares the part's parameters, where Python knows it."""
+        found = inspect.getsourcefile(self.part.Params)
+        return Path(found) if found else None
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A plugin that could not be loaded, and why."""
+
+    source: Source
+    error: Exception
+
+
+class Registry:
+    """All parts, by kind and name.
+
+    A plugin gets the registry in ``clast_register`` and calls the method named after the kind of its part.
+    Two parts of one kind under one name are an error, never a silent choice.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> registry = Registry()
+    >>> registry.wall("plane", SimpleNamespace(summary="A plane.", Params=Params))
+    >>> registry.names("wall")
+    ['plane']
+    >>> registry.get("wall", "plain")
+    Traceback (most recent call last):
+        ...
+    clast.errors.PluginError: no wall is named 'plain'; did you mean 'plane'?
+    """
+
+    def __init__(self) -> None:
+        self._parts: dict[tuple[str, str], Registered] = {}
+        self._source = Source(plugin="python", origin="python")
+        self.failures: list[Failure] = []
+
+    def generator(self, name: str, part: Generator) -> None:
+        """Register a generator of particles."""
+        self.add("generator", name, part)
+
+    def bond_model(self, name: str, part: BondModel) -> None:
+        """Register a bond model."""
+        self.add("bond_model", name, part)
+
+    def bond_kinematics(self, name: str, part: BondKinematics) -> None:
+        """Register a bond kinematics."""
+        self.add("bond_kinematics", name, part)
+
+    def contact_law(self, name: str, part: ContactLaw) -> None:
+        """Register a contact law."""
+        self.add("contact_law", name, part)
+
+    def integrator(self, name: str, part: Integrator) -> None:
+        """Register a time integrator."""
+        self.add("integrator", name, part)
+
+    def neighbour_search(self, name: str, part: NeighbourSearch) -> None:
+        """Register a neighbour search."""
+        self.add("neighbour_search", name, part)
+
+    def wall(self, name: str, part: Wall) -> None:
+        """Register a wall shape."""
+        self.add("wall", name, part)
+
+    def motion(self, name: str, part: Motion) -> None:
+        """Register a wall motion."""
+        self.add("motion", name, part)
+
+    def body_force(self, name: str, part: BodyForce) -> None:
+        """Register a body force."""
+        self.add("body_force", name, part)
+
+    def writer(self, name: str, part: Writer) -> None:
+        """Register a writer of results."""
+        self.add("writer", name, part)
+
+    def add(self, kind: str, name: str, part: Part) -> None:
+        """Register a part of any kind.
+
+        Raises
+        ------
+        PluginError
+            The name is taken or badly spelt, or the part lacks ``summary`` or ``Params``.
+        """
+        self._check(kind, name, part)
+        taken = self._parts.get((kind, name))
+        if taken is not None:
+            raise NameTakenError(_conflict(taken, self._source))
+        self._parts[kind, name] = Registered(kind, name, part, self._source)
+
+    def get(self, kind: str, name: str) -> Registered:
+        """Look a part up.
+
+        Raises
+        ------
+        PluginError
+            There is none of that name; the message holds the nearest name and the plugins that failed.
+        """
+        found = self._parts.get((kind, name))
+        if found is None:
+            raise PluginError(self._missing(kind, name))
+        return found
+
+    def names(self, kind: str) -> list[str]:
+        """Names of all parts of a kind, sorted."""
+        return sorted(name for of_kind, name in self._parts if of_kind == kind)
+
+    def __iter__(self) -> Iterator[Registered]:
+        """All parts, in the order of the kinds and then of the names."""
+        return iter(sorted(self._parts.values(), key=lambda each: (KINDS.index(each.kind), each.name)))
+
+    def copy(self) -> Registry:
+        """Registry with the same parts; what is added to it leaves this one alone."""
+        twin = Registry()
+        twin._parts = dict(self._parts)
+        twin.failures = list(self.failures)
+        return twin
+
+    @contextmanager
+    def registering(self, source: Source) -> Iterator[None]:
+        """Parts added inside belong to ``source``; all of them are taken back when an error comes out."""
+        before, parts = self._source, dict(self._parts)
+        self._source = source
+        try:
+            yield
+        except BaseException:
+            self._parts = parts
+            raise
+        finally:
+            self._source = before
+
+    def _check(self, kind: str, name: str, part: Part) -> None:
+        where = f"plugin {self._source.plugin!r} ({self._source})"
+        if kind not in KINDS:
+            raise PluginError(f"{where}: {kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
+        if not _NAME.fullmatch(name):
+            raise PluginError(
+                f"{where}: {name!r} is not a name for a {kind}: small letters, digits and _ only"
+            )
+        declared = getattr(part, "Params", None)
+        if not (isinstance(declared, type) and issubclass(declared, Params)):
+            raise PluginError(
+                f"{where}: {kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params"
+            )
+        if not isinstance(getattr(part, "summary", None), str):
+            raise PluginError(f"{where}: {kind} {name!r} needs 'summary', one line of text")
+
+    def _missing(self, kind: str, name: str) -> str:
+        message = f"no {kind.replace('_', ' ')} is named {name!r}; {suggestion(name, self.names(kind))}"
+        for failure in self.failures:
+            message += f"\n  plugin {failure.source.plugin!r} ({failure.source}) could not be loaded: "
+            message += one_line(failure.error)
+        if not self._parts and not self.failures:
+            message += "; no plugin is installed, not even Clast's own: install it with 'pip install -e .'"
+        return message
+
+
+def one_line(error: BaseException) -> str:
+    """Type and text of an error in one line, with its notes."""
+    texts = [f"{type(error).__name__}: {error}", *getattr(error, "__notes__", [])]
+    return "; ".join(" ".join(text.split()) for text in texts)
+
+
+def _conflict(taken: Registered, second: Source) -> str:
+    kind = taken.kind.replace("_", " ")
+    return (
+        f"two plugins bring a {kind} named {taken.name!r}: {taken.source.plugin!r} ({taken.source}) and "
+        f"{second.plugin!r} ({second}); rename one of them, uninstall one, or leave one out with "
+        f"CLAST_PLUGINS=<the plugins to load> or CLAST_PLUGINS=none"
+    )

@@ -1,0 +1,168 @@
+"""Checkpoints: everything a run needs to go on as if it had never stopped."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.errors import RunError
+from clast.simulation import Simulation
+
+FILE = "checkpoint.h5"
+PREVIOUS = "checkpoint.previous.h5"
+DERIVED = ("numbers", "scratch")
+MAY_DIFFER = ("output.checkpoint", "output.writers", "reference", "description")
+
+
+def save(folder: Path, simulation: Simulation, notes: Mapping[str, Any]) -> Path:
+    """Write the state of a run; the file appears whole or not at all, and the one before is kept.
+
+    Parameters
+    ----------
+    folder : Path
+        Run folder.
+    simulation : Simulation
+    notes : mapping
+        JSON values to store beside the state.
+
+    Raises
+    ------
+    RunError
+        If the disk refuses; the last good checkpoint stays.
+    """
+    import h5py
+
+    path, draft = folder / FILE, folder / f"{FILE}.tmp"
+    try:
+        with h5py.File(draft, "w") as file:
+            for name, array in state_arrays(simulation):
+                file[name] = array
+            file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
+        _settle(draft)
+        if path.exists():
+            path.replace(folder / PREVIOUS)
+        draft.replace(path)
+    except OSError as error:
+        raise RunError(f"{path}: the checkpoint cannot be written ({error}); the one before is kept") from error
+    return path
+
+
+def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
+    """Bring a simulation to the state of a run folder's last good checkpoint, and return the notes beside it.
+
+    Raises
+    ------
+    RunError
+        If there is none, none can be read, or it belongs to another scene or other physics.
+    """
+    found = [path for path in (folder / FILE, folder / PREVIOUS) if path.exists()]
+    if not found:
+        raise RunError(f"{folder}: no checkpoint to resume from; run without --resume to start anew")
+    reasons = []
+    for path in found:
+        try:
+            arrays, about = _read(path)
+        except (OSError, KeyError, ValueError) as error:
+            reasons.append(f"{path}: cannot be read ({error})")
+            continue
+        _refuse_other(path, about, identity(simulation))
+        _restore(simulation, arrays)
+        simulation.removed = int(about["removed"])
+        simulation.rebuilds = int(about["rebuilds"])
+        return dict(about["notes"])
+    raise RunError("; ".join(reasons))
+
+
+def state_arrays(simulation: Simulation) -> Iterator[tuple[str, NDArray[Any]]]:
+    """Yield every array of the world by name."""
+    for group, record in simulation.world._asdict().items():
+        if group in DERIVED:
+            continue
+        if isinstance(record, np.ndarray):
+            yield group, record
+        else:
+            for name, array in record._asdict().items():
+                yield f"{group}/{name}", array
+
+
+def identity(simulation: Simulation) -> dict[str, Any]:
+    """Return what must agree for a resume: scene, kernel, step."""
+    return {
+        "schema": 1,
+        "scene": json.loads(json.dumps(simulation.config.resolved())),
+        "kernel": simulation.kernel.digest,
+        "dt": simulation.dt,
+        "removed": simulation.removed,
+        "rebuilds": simulation.rebuilds,
+    }
+
+
+def flat(tree: Any, path: str = "") -> dict[str, Any]:
+    """Return a nested mapping as one level with dotted keys.
+
+    >>> flat({"a": {"b": 1}, "c": 2})
+    {'a.b': 1, 'c': 2}
+    """
+    if not isinstance(tree, dict):
+        return {path: tree}
+    found: dict[str, Any] = {}
+    for key, value in tree.items():
+        found |= flat(value, f"{path}.{key}" if path else str(key))
+    return found
+
+
+def _read(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+    import h5py
+
+    arrays: dict[str, NDArray[Any]] = {}
+    with h5py.File(path, "r") as file:
+        about = json.loads(file.attrs["about"])
+        file.visititems(lambda name, item: arrays.update({name: item[...]}) if hasattr(item, "shape") else None)
+    return arrays, about
+
+
+def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+    before, now = flat(old["scene"]), flat(new["scene"])
+    differing = [
+        key
+        for key in sorted(before.keys() | now.keys())
+        if before.get(key) != now.get(key) and not key.startswith(MAY_DIFFER)
+    ]
+    if differing:
+        shown = "; ".join(f"{key}: {before.get(key)!r} there, {now.get(key)!r} here" for key in differing[:5])
+        raise RunError(
+            f"{path}: belongs to another scene, so it cannot be resumed ({shown}). "
+            "Resume with the same file and --set options, or choose another folder with -o"
+        )
+    if old["kernel"] != new["kernel"] or old["dt"] != new["dt"]:
+        raise RunError(
+            f"{path}: was computed by other sources of the laws or of Clast, so going on would mix two physics; "
+            "start anew in another folder with -o"
+        )
+
+
+def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]]) -> None:
+    world = simulation.world
+    for group, record in world._asdict().items():
+        if group in DERIVED:
+            continue
+        if isinstance(record, np.ndarray):
+            world = world._replace(**{group: arrays[group]})
+        else:
+            fresh = {name: np.ascontiguousarray(arrays[f"{group}/{name}"]) for name in record._fields}
+            world = world._replace(**{group: record._replace(**fresh)})
+    simulation.world = world
+
+
+def _settle(path: Path) -> None:
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,49 @@
+"""Frames: the whole scene at a moment, for recordings, pictures and later questions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from clast.engine.kernels.layout import Q, V, X
+from clast.results.store import Store
+from clast.simulation import Simulation
+
+
+class Frames:
+    """Observer that keeps the whole scene at regular steps, the first and the last included."""
+
+    def __init__(self, simulation: Simulation, store: Store) -> None:
+        self.store = store
+        self.last = simulation.last_step
+        frames = simulation.config.output.frames
+        self.every = max(1, round(simulation.last_step / frames)) if frames else 0
+
+    def next_step(self, step: int) -> int | None:
+        """Return the next multiple of the interval, and at last the end."""
+        if self.every == 0 or step >= self.last:
+            return None
+        return min(self.last, (step // self.every + 1) * self.every)
+
+    def observe(self, simulation: Simulation) -> None:
+        """Append the scene; bond loads are computed here, at the positions shown."""
+        scene, particles = simulation.scene, simulation.world.particles
+        gone = particles.present == 0
+        position = particles.pose[:, X : X + 3].astype(np.float32)
+        position[gone] = np.nan
+        row = {
+            "time": simulation.time,
+            "step": simulation.step,
+            "strain": simulation.gauge.strain(simulation.world.walls),
+            "position": position,
+            "velocity": particles.twist[:, V : V + 3].astype(np.float32),
+            "wall_displacement": simulation.world.walls.displacement,
+        }
+        if simulation.plan.orientation:
+            row["orientation"] = particles.pose[:, Q : Q + 4].astype(np.float32)
+        loads = simulation.bond_loads()
+        row["bond_intact"] = loads[:, 0].astype(np.uint8)
+        row["bond_stress"] = (loads[:, 2] / (0.25 * np.pi * scene.diameter**2)).astype(np.float32)
+        row["bond_failure"] = loads[:, 6].astype(np.float32)
+        self.store.append("frames", row)
+        self.store.keep_cracks(simulation)
+        self.store.flush()

@@ -1,0 +1,262 @@
+"""Run: the reading side of a run folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.errors import RunError
+from clast.results.reading import (
+    RESULTS_FILE,
+    check_contents,
+    common_length,
+    open_results,
+    read_json,
+    read_yaml,
+    strings,
+    unreadable,
+)
+
+
+class Frame(NamedTuple):
+    """State of the scene at one recorded moment, in SI units.
+
+    ``n`` particles, ``m`` bonds, ``w`` walls. A particle that has left the domain has NaN positions.
+    """
+
+    time: float
+    step: int
+    strain: float
+    position: NDArray[np.float32]
+    """(n, 3), m"""
+    orientation: NDArray[np.float32] | None
+    """(n, 4) unit quaternions w, x, y, z, or None where the scene needs no orientation"""
+    velocity: NDArray[np.float32]
+    """(n, 3), m/s"""
+    bond_intact: NDArray[np.bool_]
+    """(m,)"""
+    bond_stress: NDArray[np.float32]
+    """(m,) axial stress in Pa, tension positive, 0 when broken"""
+    bond_failure: NDArray[np.float32]
+    """(m,) failure index: 0 unloaded, 1 breaks, 0 when broken"""
+    wall_displacement: NDArray[np.float64]
+    """(w, 3), m"""
+
+
+@dataclass(frozen=True)
+class WallMesh:
+    """Triangles that draw a wall at displacement 0.
+
+    Attributes
+    ----------
+    points : (p, 3) float64
+        Corners in m.
+    triangles : (t, 3) int64
+        Numbers of the corners of each triangle.
+    index : int
+        Row of this wall in ``Frame.wall_displacement``.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    index: int
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A measured crushing point to compare with, as given under ``reference`` in the config.
+
+    Attributes
+    ----------
+    label : str
+        Where the point comes from.
+    strain, stress : float
+        The point; stress in Pa.
+    strain_deviation, stress_deviation : float
+        Its scatter, one standard deviation; 0 where not given.
+    """
+
+    label: str
+    strain: float
+    stress: float
+    strain_deviation: float = 0.0
+    stress_deviation: float = 0.0
+
+
+class Run:
+    """Results of one run, read from its folder; frames are read from disk one at a time.
+
+    Parameters
+    ----------
+    folder : Path
+        A run folder, finished or not.
+
+    Attributes
+    ----------
+    folder : Path
+        The run folder.
+    name : str
+        Name of the scene.
+    complete : bool
+        Whether the run went to its end.
+    curves : dict of str to (S,) float64
+        The sampled columns, for example ``strain`` and ``stress_Pa``.
+    cracks : dict of str to array
+        One entry per broken bond: ``time``, ``bond``, ``i``, ``j``, ``position`` (k, 3), ``mode``,
+        ``normal_stress``, ``shear_stress`` in Pa and ``energy`` in J.
+    crack_modes : list of str
+        What the numbers in ``cracks["mode"]`` mean.
+    radius : (n,) float64
+        Radii of the particles in m.
+    grain : (n,) int64
+        Number of the grain each particle belongs to.
+    material : (n,) uint8
+        Index into ``materials`` of each particle.
+    materials : list of str
+        Names of the materials.
+    bond_ends : (m, 2) uint32
+        The two particles of each bond.
+    bond_diameter, bond_length : (m,) float64
+        Size of each bond in m.
+    walls : dict of str to WallMesh
+        Drawable walls, in the order of ``Frame.wall_displacement``.
+    n_frames : int
+        Number of recorded frames.
+    summary, config : dict
+        Contents of ``summary.json`` and of the resolved ``config.yaml``; empty where the file is missing.
+    reference : list of Reference
+        Measured points named in the config.
+
+    Raises
+    ------
+    RunError
+        If the folder holds no results, or they are unreadable, or a simulation is still writing them.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = Path(folder)
+        self._file = open_results(self.folder)
+        try:
+            self._read()
+        except (KeyError, ValueError, OSError) as error:
+            self.close()
+            raise unreadable(self.folder / RESULTS_FILE, str(error).strip("'\"")) from error
+        except RunError:
+            self.close()
+            raise
+
+    def _read(self) -> None:
+        file = self._file
+        check_contents(self.folder / RESULTS_FILE, file)
+        self.name = str(file.attrs["name"])
+        self.complete = bool(file.attrs["complete"])
+        self._read_scene(file)
+        self.curves: dict[str, NDArray[np.float64]] = common_length(file["curves"])
+        self.cracks: dict[str, NDArray[Any]] = common_length(file["cracks"])
+        self.crack_modes = strings(file["cracks/mode"].attrs["modes"])
+        self._frames = file["frames"]
+        self.n_frames = min(len(dataset) for dataset in self._frames.values())
+        self.summary = read_json(self.folder / "summary.json")
+        self.config = read_yaml(self.folder / "config.yaml")
+        self.reference = _references(self.folder / "config.yaml", self.config)
+
+    def _read_scene(self, file: Any) -> None:
+        self.radius: NDArray[np.float64] = file["particles/radius"][:]
+        self.grain: NDArray[np.int64] = file["particles/grain"][:]
+        self.material: NDArray[np.uint8] = file["particles/material"][:]
+        self.materials = strings(file["particles/material"].attrs["names"])
+        self.bond_ends: NDArray[np.uint32] = file["bonds/ends"][:].reshape(-1, 2)
+        self.bond_diameter: NDArray[np.float64] = file["bonds/diameter"][:]
+        self.bond_length: NDArray[np.float64] = file["bonds/length"][:]
+        walls = {
+            name: WallMesh(group["points"][:], group["triangles"][:], int(group.attrs["index"]))
+            for name, group in file.get("walls", {}).items()
+        }
+        self.walls = dict(sorted(walls.items(), key=lambda item: item[1].index))
+
+    def frame(self, k: int) -> Frame:
+        """Read frame ``k``; negative numbers count from the end.
+
+        Raises
+        ------
+        IndexError
+            If there is no such frame.
+        RunError
+            If the file is damaged there.
+        """
+        if not -self.n_frames <= k < self.n_frames:
+            raise IndexError(f"frame {k} of a run with {self.n_frames} frames")
+        try:
+            return self._read_frame(k % self.n_frames)
+        except OSError as error:
+            raise unreadable(self.folder / RESULTS_FILE, f"frame {k}: {error}") from error
+
+    def _read_frame(self, k: int) -> Frame:
+        frames = self._frames
+        return Frame(
+            time=float(frames["time"][k]),
+            step=int(frames["step"][k]),
+            strain=float(frames["strain"][k]),
+            position=frames["position"][k],
+            orientation=frames["orientation"][k] if "orientation" in frames else None,
+            velocity=frames["velocity"][k],
+            bond_intact=frames["bond_intact"][k].astype(bool),
+            bond_stress=frames["bond_stress"][k],
+            bond_failure=frames["bond_failure"][k],
+            wall_displacement=frames["wall_displacement"][k].reshape(-1, 3),
+        )
+
+    def frame_values(self, name: str) -> NDArray[np.float64]:
+        """Read one number per frame for all frames: ``time``, ``step`` or ``strain``.
+
+        Returns
+        -------
+        (F,) float64
+        """
+        return np.asarray(self._frames[name][: self.n_frames], dtype=np.float64)
+
+    def close(self) -> None:
+        """Close the file; frames cannot be read any more, everything else can."""
+        self._file.close()
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def open_run(folder: str | Path) -> Run:
+    """Open a run folder for reading, for example ``with open_run("runs/crush_grain") as run: ...``.
+
+    Raises
+    ------
+    RunError
+        If the folder holds no results, or they are unreadable, or a simulation is still writing them.
+    """
+    return Run(Path(folder))
+
+
+def _references(path: Path, config: dict[str, Any]) -> list[Reference]:
+    try:
+        return [_reference(entry) for entry in config.get("reference") or []]
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise RunError(f"{path}: reference: cannot be read ({error!r})") from error
+
+
+def _reference(entry: dict[str, Any]) -> Reference:
+    # float() because YAML loads numbers such as 4e6 as text
+    return Reference(
+        label=str(entry.get("label", "reference")),
+        strain=float(entry["strain"]),
+        stress=float(entry["stress"]),
+        strain_deviation=float(entry.get("strain_deviation") or 0.0),
+        stress_deviation=float(entry.get("stress_deviation") or 0.0),
+    )

@@ -1,0 +1,94 @@
+"""Samples: the rows of the curves, and the close tracks of chosen particles and bonds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from clast.engine.kernels.layout import F, M, V, W, X
+from clast.engine.state import Floats
+from clast.errors import ConfigError
+from clast.results.store import Store
+from clast.scene.scene import Scene
+from clast.simulation import Simulation
+
+PARTICLE_TRACK = ("position", "velocity", "spin", "force", "moment")
+BOND_TRACK = ("intact", "axial_strain", "normal_stress", "shear_stress", "torsion", "bending", "failure", "energy")
+
+
+class Samples:
+    """Observer that takes one row of every curve at regular steps, the first and the last included."""
+
+    def __init__(self, simulation: Simulation, store: Store) -> None:
+        output = simulation.config.output
+        self.store = store
+        self.last = simulation.last_step
+        self.every = max(1, round(simulation.last_step / output.samples))
+        self.mean = output.force == "mean"
+        self.particles = np.array(output.tracks.particles, np.int64)
+        self.bonds = np.array(output.tracks.bonds, np.int64)
+        self._refuse_unknown(simulation.scene)
+        self.previous_step = 0
+
+    def _refuse_unknown(self, scene: Scene) -> None:
+        for key, wanted, count in (
+            ("particles", self.particles, len(scene.radius)),
+            ("bonds", self.bonds, len(scene.ends)),
+        ):
+            wrong = wanted[(wanted < 0) | (wanted >= count)]
+            if len(wrong):
+                raise ConfigError(f"output.tracks.{key}: there is no number {wrong[0]}; the scene has {count} {key}")
+
+    def next_step(self, step: int) -> int | None:
+        """Return the next multiple of the interval, and at last the end."""
+        if step >= self.last:
+            return None
+        return min(self.last, (step // self.every + 1) * self.every)
+
+    def observe(self, simulation: Simulation) -> None:
+        """Append one row to every curve and track."""
+        self.store.append("curves", self._row(simulation))
+        if len(self.particles):
+            self.store.append("tracks/particles", self._particle_row(simulation))
+        if len(self.bonds):
+            self.store.append("tracks/bonds", self._bond_row(simulation))
+        simulation.world.walls.force_sum[:] = 0.0
+        self.previous_step = simulation.step
+
+    def _row(self, simulation: Simulation) -> dict[str, float]:
+        walls, gauge = simulation.world.walls, simulation.gauge
+        steps = simulation.step - self.previous_step
+        force = walls.force_sum / steps if self.mean and steps else walls.force
+        row = {"time_s": simulation.time}
+        if gauge.axis is not None:
+            upper, lower = gauge.forces(force)
+            row |= {
+                "displacement_m": gauge.displacement(walls),
+                "strain": gauge.strain(walls),
+                "stress_Pa": upper / gauge.area,
+                "force_upper_N": upper,
+                "force_lower_N": lower,
+            }
+        else:
+            row |= {f"force_{w}_{c}_N": force[k, a] for k, w in enumerate(gauge.names) for a, c in enumerate("xyz")}
+        return row | {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
+
+    def _particle_row(self, simulation: Simulation) -> dict[str, Floats]:
+        particles, k = simulation.world.particles, self.particles
+        tables = (
+            particles.pose[k, X : X + 3],
+            particles.twist[k, V : V + 3],
+            particles.twist[k, W : W + 3],
+            particles.load[k, F : F + 3],
+            particles.load[k, M : M + 3],
+        )
+        return dict(zip(PARTICLE_TRACK, tables, strict=True))
+
+    def _bond_row(self, simulation: Simulation) -> dict[str, Floats]:
+        scene, k = simulation.scene, self.bonds
+        loads = simulation.bond_loads()[k]
+        area = 0.25 * np.pi * scene.diameter[k] ** 2
+        values = loads.T.copy()
+        values[1] /= scene.length[k]
+        values[2] /= area
+        values[3] /= area
+        return dict(zip(BOND_TRACK, values, strict=True))

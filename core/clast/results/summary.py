@@ -1,0 +1,159 @@
+"""Summary of a run: what was computed, how, and what came out."""
+
+from __future__ import annotations
+
+import json
+import platform
+import resource
+from importlib.metadata import version
+from math import sqrt
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.engine.sources import source_files
+from clast.results.fragments import fragments
+from clast.simulation import Simulation
+
+FILE = "summary.json"
+LIBRARIES = ("numpy", "numba", "h5py", "scipy")
+Curves = dict[str, NDArray[np.float64]]
+
+
+def summarise(simulation: Simulation, curves: Curves, wall_time: float, steps_now: int) -> dict[str, Any]:
+    """Return the summary of a run.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        At its end.
+    curves : mapping of (s,) arrays
+        The sampled curves.
+    wall_time : float
+        Seconds spent in the step loop and its observers in this session.
+    steps_now : int
+        Steps taken in this session.
+    """
+    scene = simulation.scene
+    label = fragments(len(scene.radius), scene.ends, simulation.bond_loads()[:, 0] > 0.0)
+    return {
+        "name": simulation.config.name,
+        "versions": versions(),
+        "parts": parts(simulation),
+        "kernel": simulation.kernel.digest,
+        "counts": {
+            "particles": len(scene.radius),
+            "bonds": len(scene.ends),
+            "grains": int(scene.grain.max()) + 1,
+            "walls": len(simulation.config.walls),
+        },
+        "generators": {name: dict(report) for name, report in scene.report.items()},
+        "time_step_s": simulation.dt,
+        "time_step_limits_s": limits_table(simulation),
+        "steps": simulation.step,
+        "simulated_time_s": simulation.time,
+        "wall_time_s": wall_time,
+        "steps_per_s": steps_now / wall_time if wall_time > 0 else None,
+        "neighbour_lists_made": simulation.rebuilds,
+        "bonds_broken": simulation.bonds_broken,
+        "bonds_intact": simulation.bonds_intact,
+        "particles_removed": simulation.removed,
+        "fragments": int(label.max()) + 1,
+        "largest_fragment_particles": int(np.bincount(label).max()),
+        "memory_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
+    } | compression_results(simulation, curves)
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of Clast, Python and the libraries that compute."""
+    from clast import __version__
+
+    return {"clast": __version__, "python": platform.python_version()} | {name: version(name) for name in LIBRARIES}
+
+
+def parts(simulation: Simulation) -> dict[str, dict[str, str]]:
+    """Return every part a scene uses, with where it comes from and a digest of its source files."""
+    return {
+        f"{chosen.kind}.{chosen.name}": {"source": str(chosen.source), "digest": part_digest(chosen.part)}
+        for chosen in simulation.config.chosen
+    }
+
+
+def part_digest(part: Any) -> str:
+    """Return a digest of the source files of all functions a part consists of."""
+    import hashlib
+    from types import FunctionType
+
+    functions = [f for f in vars(part).values() if isinstance(f, FunctionType)]
+    told = hashlib.sha256()
+    for file in sorted(source_files(functions)):
+        told.update(file.read_bytes())
+    return told.hexdigest()[:24]
+
+
+def limits_table(simulation: Simulation) -> dict[str, float | None]:
+    """Return all limits of the time step in s, None where one does not apply."""
+    found = simulation.limits
+    table = found._asdict() | {"paper": found.paper, "stable": found.stable}
+    return {name: float(value) if np.isfinite(value) else None for name, value in table.items()}
+
+
+def compression_results(simulation: Simulation, curves: Curves) -> dict[str, Any]:
+    """Return peak, slope and Hertz modulus of a compression; nothing for other scenes."""
+    config = simulation.config
+    if config.compression is None or "stress_Pa" not in curves:
+        return {}
+    strain, stress, force = curves["strain"], curves["stress_Pa"], curves["force_upper_N"]
+    k = int(np.argmax(stress))
+    return {
+        "peak_stress_Pa": float(stress[k]),
+        "strain_at_peak": float(strain[k]),
+        "peak_inside_run": bool(peak_inside(stress, k)),
+        "secant_modulus_20_80_Pa": secant_modulus(strain, stress, k),
+        "hertz_modulus_at_2_percent_Pa": hertz_modulus(strain, force, 0.02, config.compression.height, poisson(config)),
+    }
+
+
+def peak_inside(stress: NDArray[np.float64], k: int) -> bool:
+    """Tell whether the stress fell to four fifths of its peak before the run ended."""
+    return bool(stress[k] > 0 and (stress[k:] <= 0.8 * stress[k]).any())
+
+
+def secant_modulus(strain: NDArray[np.float64], stress: NDArray[np.float64], k: int) -> float | None:
+    """Return the slope between the first 20 % and the first 80 % of the peak in Pa."""
+    if stress[k] <= 0.0:
+        return None
+    low = int(np.argmax(stress[: k + 1] >= 0.2 * stress[k]))
+    high = int(np.argmax(stress[: k + 1] >= 0.8 * stress[k]))
+    if strain[high] == strain[low]:
+        return None
+    return float((stress[high] - stress[low]) / (strain[high] - strain[low]))
+
+
+def hertz_modulus(
+    strain: NDArray[np.float64], force: NDArray[np.float64], at: float, height: float, nu: float
+) -> float | None:
+    """Return E of a Hertzian sphere between two plates with the same force at a strain, in Pa.
+
+    F = 4/3 E/(1 − ν²) √R (δ/2)^1.5 with R half the height and δ the plates' approach; the force is the mean over a
+    tenth of the strain on either side.
+    """
+    if strain[-1] < at:
+        return None
+    near = np.abs(strain - at) <= 0.1 * at
+    mean = float(force[near].mean()) if near.any() else float(np.interp(at, strain, force))
+    return mean * 0.75 * (1.0 - nu**2) / (sqrt(0.5 * height) * (0.5 * at * height) ** 1.5)
+
+
+def poisson(config: Any) -> float:
+    """Return Poisson's ratio of the first material."""
+    return float(next(iter(config.materials.values())).poisson_ratio)
+
+
+def write(folder: Path, summary: dict[str, Any]) -> Path:
+    """Write the summary as JSON."""
+    path = folder / FILE
+    path.write_text(json.dumps(summary, indent=2) + "\n")
+    return path

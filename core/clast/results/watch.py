@@ -1,0 +1,81 @@
+"""Watch: progress, wall-clock checkpoints and orderly stops, without touching the results."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Callable
+from types import FrameType
+from typing import Any
+
+from clast.errors import RunError
+from clast.simulation import Simulation
+
+LOOK_EVERY = 0.2
+
+
+class Interrupted(RunError):
+    """The run was asked to stop by Ctrl-C or SIGTERM; its exit code is 128 plus the signal's number."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(f"stopped by {signal.Signals(number).name}")
+        self.exit_code = 128 + number
+
+
+class Watch:
+    """Observer that looks several times a second, wherever the run is.
+
+    Parameters
+    ----------
+    show : callable
+        Called with the simulation and the steps per second at every look.
+    checkpoint : callable
+        Called when it is time for a checkpoint.
+    interval : float
+        Wall-clock time between checkpoints in s.
+    """
+
+    def __init__(
+        self, show: Callable[[Simulation, float], Any], checkpoint: Callable[[], Any], interval: float
+    ) -> None:
+        self.show, self.checkpoint, self.interval = show, checkpoint, interval
+        self.stride = 1
+        self.looked = self.saved = time.monotonic()
+        self.step = 0
+        self.signal = 0
+
+    def __enter__(self) -> Watch:
+        """Take over SIGINT and SIGTERM."""
+        self._before = {number: signal.signal(number, self._note) for number in (signal.SIGINT, signal.SIGTERM)}
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        """Give the signals back."""
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        self.signal = number
+
+    def next_step(self, step: int) -> int | None:
+        """Return a step that is reached in about a fifth of a second."""
+        return step + self.stride
+
+    def observe(self, simulation: Simulation) -> None:
+        """Show progress, save when due, stop when asked.
+
+        Raises
+        ------
+        Interrupted
+            After a signal.
+        """
+        now = time.monotonic()
+        rate = (simulation.step - self.step) / max(now - self.looked, 1e-9)
+        self.stride = max(1, min(10 * self.stride, int(rate * LOOK_EVERY)))
+        self.looked, self.step = now, simulation.step
+        self.show(simulation, rate)
+        if self.signal:
+            raise Interrupted(self.signal)
+        if now - self.saved >= self.interval:
+            self.checkpoint()
+            self.saved = time.monotonic()

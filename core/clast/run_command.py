@@ -1,0 +1,190 @@
+"""``clast run``: progress while it runs, then a short table and the paths of what it wrote."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from clast.config.scene import SceneConfig, load
+from clast.session import Listener, Outcome, run_scene
+from clast.simulation import Simulation
+
+PLAIN_EVERY = 5.0
+
+
+def run(
+    file: Path, output: Path | None = None, overrides: Iterable[str] = (), threads: int = 1, resume: bool = False
+) -> None:
+    """Run a scene file and print what came out.
+
+    Raises
+    ------
+    ClastError
+        With a message for the user.
+    """
+    config = load(file, overrides)
+    folder = output if output is not None else default_folder(config, resume)
+    with console_listener(config) as listener:
+        outcome = run_scene(config, folder, resume, listener)
+    print_outcome(outcome)
+
+
+def default_folder(config: SceneConfig, resume: bool) -> Path:
+    """Return ``runs/NAME``, numbered when taken; the newest one to resume."""
+    base = Path("runs")
+    taken = [base / config.name]
+    while taken[-1].exists():
+        taken.append(base / f"{config.name}-{len(taken) + 1}")
+    return taken[-2] if resume and len(taken) > 1 else taken[-1]
+
+
+class Lines(Listener):
+    """Progress as plain lines, for logs and pipes."""
+
+    def __init__(self) -> None:
+        self.last = 0.0
+
+    def __enter__(self) -> Lines:
+        """Start."""
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        """End."""
+
+    def say(self, text: str) -> None:
+        """Print one line at once."""
+        print(text, flush=True)
+
+    def building(self) -> None:
+        """Tell that generators start."""
+        self.say("building the scene")
+
+    def compiling(self) -> None:
+        """Tell that the user must wait once."""
+        self.say("compiling kernels for this kind of scene, once (about half a minute)")
+
+    def started(self, simulation: Simulation) -> None:
+        """Tell the size of the run."""
+        scene = simulation.scene
+        left = simulation.last_step - simulation.step
+        self.say(
+            f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left} steps of {simulation.dt:.3g} s"
+        )
+        self.last = time.monotonic()
+
+    def progress(self, simulation: Simulation, rate: float) -> None:
+        """Tell where the run is, now and then."""
+        if time.monotonic() - self.last >= PLAIN_EVERY:
+            self.last = time.monotonic()
+            self.say(" | ".join(status(simulation, rate)))
+
+    def writing(self, name: str) -> None:
+        """Tell which writer works."""
+        self.say(f"writing {name}")
+
+
+class Bar(Lines):
+    """Progress as a live bar, for terminals."""
+
+    def __enter__(self) -> Bar:
+        """Show the bar."""
+        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+
+        self.bar = Progress(TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), refresh_per_second=8)
+        self.bar.start()
+        self.task = self.bar.add_task("starting", total=None)
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        """Remove the bar."""
+        self.bar.stop()
+
+    def say(self, text: str) -> None:
+        """Print above the bar."""
+        self.bar.console.print(text, highlight=False)
+
+    def progress(self, simulation: Simulation, rate: float) -> None:
+        """Move the bar."""
+        self.bar.update(
+            self.task,
+            description="  ".join(status(simulation, rate)),
+            completed=simulation.step,
+            total=simulation.last_step,
+        )
+
+    def writing(self, name: str) -> None:
+        """Tell which writer works."""
+        self.bar.update(self.task, description=f"writing {name}")
+
+
+def console_listener(config: SceneConfig) -> Lines:
+    """Return a bar for terminals, plain lines for everything else."""
+    return Bar() if sys.stdout.isatty() else Lines()
+
+
+def status(simulation: Simulation, rate: float) -> list[str]:
+    """Return what a user wants to see of a running simulation."""
+    gauge, walls = simulation.gauge, simulation.world.walls
+    parts = [f"t = {simulation.time:.3g} s"]
+    if gauge.axis is not None:
+        upper, _ = gauge.forces(walls.force)
+        parts = [f"strain {gauge.strain(walls):6.2%}", f"stress {upper / gauge.area / 1e6:6.3f} MPa"]
+    if len(simulation.scene.ends):
+        parts.append(f"{simulation.bonds_broken} bonds broken")
+    left = (simulation.last_step - simulation.step) / max(rate, 1e-9)
+    return [*parts, f"{rate:,.0f} steps/s", f"{duration(left)} left"]
+
+
+def duration(seconds: float) -> str:
+    """Return a time span in words.
+
+    >>> duration(5), duration(200), duration(8000)
+    ('5 s', '3 min 20 s', '2 h 13 min')
+    """
+    s = round(seconds)
+    if s < 60:
+        return f"{s} s"
+    return f"{s // 60} min {s % 60} s" if s < 3600 else f"{s // 3600} h {s % 3600 // 60} min"
+
+
+def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what the table at the end shows."""
+    counts = summary["counts"]
+    rows = [("particles, bonds", f"{counts['particles']}, {counts['bonds']}")]
+    if "peak_stress_Pa" in summary:
+        where = "" if summary["peak_inside_run"] else " (still rising or not yet fallen by a fifth)"
+        rows.append(("peak stress", f"{summary['peak_stress_Pa'] / 1e6:.3f} MPa at {summary['strain_at_peak']:.2%}{where}"))
+        for key, text in (
+            ("secant_modulus_20_80_Pa", "secant modulus, 20 to 80 %"),
+            ("hertz_modulus_at_2_percent_Pa", "Hertz modulus at 2 %"),
+        ):
+            if summary[key] is not None:
+                rows.append((text, f"{summary[key] / 1e6:.1f} MPa"))
+    if counts["bonds"]:
+        rows.append(("bonds broken", f"{summary['bonds_broken']} ({summary['bonds_broken'] / counts['bonds']:.1%})"))
+        rows.append(("fragments", f"{summary['fragments']}"))
+    if summary["particles_removed"]:
+        rows.append(("particles that left", f"{summary['particles_removed']}"))
+    rate = summary["steps_per_s"]
+    rows.append(("steps", f"{summary['steps']} of {summary['time_step_s']:.3g} s"))
+    rows.append(("run time", f"{duration(summary['wall_time_s'])}, {rate:,.0f} steps/s" if rate else "none"))
+    rows.append(("memory", f"{summary['memory_MB']:.0f} MB"))
+    return rows
+
+
+def print_outcome(outcome: Outcome) -> None:
+    """Print the summary table and the path of every file, or why there is none."""
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console()
+    table = Table(show_header=False, box=None)
+    for row in summary_rows(outcome.summary):
+        table.add_row(*row)
+    console.print(table)
+    for name, written in outcome.written.items():
+        text = str(written.path) if written.path is not None else f"no {name}: {written.skipped}"
+        console.print(f"  {text}", highlight=False, soft_wrap=True)

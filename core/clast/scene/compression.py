@@ -1,0 +1,99 @@
+"""Gauge: reads strain, stress and plate forces off two walls, and knows when a scene ends."""
+
+from __future__ import annotations
+
+from math import ceil, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.config.choice import WallChoice
+from clast.config.scene import SceneConfig
+from clast.engine.state import Walls
+from clast.errors import ConfigError
+
+Floats = NDArray[np.float64]
+MOST_STEPS = 10**12
+
+
+class Gauge:
+    """Strain and stress of a compression between an upper and a lower wall.
+
+    Displacement is the approach of the two walls along the line from the lower wall's reference point to the upper
+    one's; strain is displacement over ``compression.height``; stress is the force on the upper wall over the area of
+    a circle of ``compression.diameter``.
+    """
+
+    def __init__(self, config: SceneConfig) -> None:
+        self.config = config
+        self.names = list(config.walls)
+        self.axis: Floats | None = None
+        if config.compression is not None:
+            self.upper = self.names.index(config.compression.upper)
+            self.lower = self.names.index(config.compression.lower)
+            self.height = config.compression.height
+            self.area = 0.25 * pi * config.compression.diameter**2
+            self.axis = self._axis()
+
+    def _axis(self) -> Floats:
+        upper, lower = (self._centre(k) for k in (self.upper, self.lower))
+        line = upper - lower
+        length = np.linalg.norm(line)
+        if length == 0.0:
+            raise ConfigError("compression: upper and lower wall are in the same place; there is no axis to press along")
+        return np.asarray(line / length)
+
+    def _centre(self, k: int) -> Floats:
+        wall = list(self.config.walls.values())[k].shape
+        return np.asarray(wall.part.centre(wall.params), float)
+
+    def displacement(self, walls: Walls) -> float:
+        """Return the approach of the plates in m."""
+        assert self.axis is not None
+        return float((walls.displacement[self.lower] - walls.displacement[self.upper]) @ self.axis)
+
+    def strain(self, walls: Walls) -> float:
+        """Return displacement over height; 0 without a compression."""
+        return 0.0 if self.axis is None else self.displacement(walls) / self.height
+
+    def forces(self, force: Floats) -> tuple[float, float]:
+        """Return what pushes the plates apart, upper and lower, in N, from the (w, 3) forces on the walls."""
+        assert self.axis is not None
+        return float(force[self.upper] @ self.axis), float(-force[self.lower] @ self.axis)
+
+    def last_step(self, dt: float) -> int:
+        """Return the step at which the scene ends.
+
+        Raises
+        ------
+        ConfigError
+            If the plates never reach the strain.
+        """
+        end = self.config.time.end
+        if end.steps is not None:
+            return int(end.steps)
+        if end.time is not None:
+            return max(1, ceil(end.time / dt - 1e-9))
+        assert end.strain is not None
+        return max(1, ceil(self._time_of(end.strain * self.height) / dt - 1e-9))
+
+    def _time_of(self, displacement: float) -> float:
+        """Return when the plates have approached by a displacement, in s."""
+        walls = list(self.config.walls.values())
+        start = self._approach_rate(walls, 0.0)
+        if start <= 0.0:
+            raise ConfigError(
+                "time.end.strain: the plates do not approach each other; give walls."
+                f"{self.names[self.upper]}.motion a velocity towards walls.{self.names[self.lower]}"
+            )
+        return displacement / start
+
+    def _approach_rate(self, walls: list[WallChoice], time: float) -> float:
+        assert self.axis is not None
+        return float((self._velocity(walls[self.lower], time) - self._velocity(walls[self.upper], time)) @ self.axis)
+
+    def _velocity(self, wall: WallChoice, time: float) -> Floats:
+        if wall.motion is None:
+            return np.zeros(3)
+        part = wall.motion.part
+        return np.asarray(part.velocity(part.course(wall.motion.params), time))

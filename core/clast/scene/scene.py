@@ -1,0 +1,169 @@
+"""Scene: particles and bonds as plain arrays, before anything is compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.config.scene import SceneConfig
+from clast.parts.bond_model import BondGeometry
+from clast.parts.generator import BondList, Packing
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What the generators made of a config.
+
+    Attributes
+    ----------
+    config : SceneConfig
+    position, velocity, spin : (n, 3) float64
+        m, m/s, rad/s.
+    radius, mass : (n,) float64
+        m and kg; masses are scaled by ``time.mass_scaling``.
+    material, grain : (n,) int64
+        Index into ``config.materials``, and number of the grain, −1 for loose particles.
+    prescribed : (n,) bool
+    ends : (m, 2) int64
+        Particles of each bond.
+    diameter, length : (m,) float64
+        Diameter and initial length of each bond in m.
+    relieved : (n,) bool
+        Particles whose overlaps at the start count as undeformed.
+    report : mapping
+        What each generator reached.
+    """
+
+    config: SceneConfig
+    position: Floats
+    velocity: Floats
+    spin: Floats
+    radius: Floats
+    mass: Floats
+    material: Integers
+    grain: Integers
+    prescribed: NDArray[np.bool_]
+    ends: Integers
+    diameter: Floats
+    length: Floats
+    relieved: NDArray[np.bool_]
+    report: Mapping[str, Mapping[str, float | int | str]] = field(default_factory=dict)
+
+    @property
+    def bond_vectors(self) -> Floats:
+        """Centre of j minus centre of i for every bond, (m, 3) in m."""
+        return self.position[self.ends[:, 1]] - self.position[self.ends[:, 0]]
+
+    @property
+    def bond_geometry(self) -> BondGeometry:
+        """Shape of all bonds; radius, section and second moment are single numbers when all bonds agree."""
+        R = 0.5 * self.diameter
+        if len(R) and np.all(R == R[0]):
+            R = R[0]
+        return BondGeometry(self.length, R, np.pi * R**2, 0.25 * np.pi * R**4)
+
+
+def build_scene(config: SceneConfig) -> Scene:
+    """Run the generators of a config and join what they make.
+
+    Raises
+    ------
+    PackingError, ConfigError
+        From the generators, and for bonds without a bond model.
+    """
+    packings = [chosen.part.generate(chosen.params, config.folder) for chosen in config.generators]
+    names = list(config.materials)
+    material = np.array([names.index(name) for packing in packings for name in packing.material], np.int64)
+    radius = np.concatenate([packing.radius for packing in packings])
+    density = np.array([each.density for each in config.materials.values()])[material]
+    position = np.concatenate([packing.position for packing in packings])
+    grain = _joined_grains(packings)
+    bonds = _bonds(config, packings, position, radius, material, grain)
+    return Scene(
+        config=config,
+        position=position,
+        velocity=np.concatenate([packing.velocity for packing in packings]),
+        spin=np.concatenate([packing.spin for packing in packings]),
+        radius=radius,
+        mass=density * config.time.mass_scaling * 4.0 / 3.0 * np.pi * radius**3,
+        material=material,
+        grain=grain,
+        prescribed=np.concatenate([packing.prescribed for packing in packings]),
+        ends=bonds.ends,
+        diameter=bonds.diameter,
+        length=_lengths(bonds, position),
+        relieved=np.concatenate([np.full(len(p.radius), p.relieved) for p in packings]),
+        report={f"{k + 1}. {chosen.name}": p.report for k, (chosen, p) in enumerate(zip(config.generators, packings))},
+    )
+
+
+def _joined_grains(packings: list[Packing]) -> Integers:
+    joined, first = [], 0
+    for packing in packings:
+        joined.append(np.where(packing.grain >= 0, packing.grain + first, -1))
+        first = max([first, *(joined[-1] + 1)])
+    return np.concatenate(joined)
+
+
+def _bonds(
+    config: SceneConfig,
+    packings: list[Packing],
+    position: Floats,
+    radius: Floats,
+    material: Integers,
+    grain: Integers,
+) -> BondList:
+    """Return the generators' own bonds and those between near particles of one grain."""
+    lists = [BondList(np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(0))]
+    first = 0
+    for packing in packings:
+        if packing.bonds is not None and config.bonds is not None:
+            lists.append(
+                BondList(packing.bonds.ends + first, packing.bonds.diameter, packing.bonds.length)
+            )
+        first += len(packing.radius)
+    if config.bonds is not None and config.bonds.between is not None:
+        lists.append(_near_bonds(config, position, radius, material, grain, lists))
+    return BondList(
+        np.concatenate([each.ends for each in lists]),
+        np.concatenate([each.diameter for each in lists]),
+        np.concatenate([each.length for each in lists]),
+    )
+
+
+def _near_bonds(
+    config: SceneConfig,
+    position: Floats,
+    radius: Floats,
+    material: Integers,
+    grain: Integers,
+    given: list[BondList],
+) -> BondList:
+    """Return bonds between near particles of the same grain that are not bonded yet."""
+    from clast.scene.bonding import bond_neighbours
+
+    assert config.bonds is not None
+    between = config.bonds.between
+    assert between is not None
+    min_gap = -np.inf if between.min_gap is None else between.min_gap
+    near = bond_neighbours(position, radius, between.max_gap, min_gap, between.diameter)
+    i, j = near.ends.T
+    wanted = grain[i] == grain[j]
+    if between.materials is not None:
+        allowed = np.isin(material, [list(config.materials).index(name) for name in between.materials])
+        wanted &= allowed[i] & allowed[j]
+    taken = {tuple(sorted(pair)) for each in given for pair in each.ends.tolist()}
+    if taken:
+        wanted &= np.array([tuple(sorted(pair)) not in taken for pair in near.ends.tolist()], bool)
+    return BondList(near.ends[wanted], near.diameter[wanted], near.length[wanted])
+
+
+def _lengths(bonds: BondList, position: Floats) -> Floats:
+    d = position[bonds.ends[:, 1]] - position[bonds.ends[:, 0]]
+    return np.where(np.isnan(bonds.length), np.linalg.norm(d, axis=1), bonds.length)

@@ -1,0 +1,186 @@
+"""Session: one run of a scene into a folder, from start or checkpoint to results, recording and pictures."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from clast.config.scene import SceneConfig
+from clast.config.yaml_loader import dump_yaml
+from clast.errors import ClastError, RunError
+from clast.parts.writer import Written
+from clast.results import checkpoint, curves, summary
+from clast.results.frames import Frames
+from clast.results.run import open_run
+from clast.results.samples import Samples
+from clast.results.store import Store
+from clast.results.watch import Interrupted, Watch
+from clast.simulation import Simulation
+
+CONFIG_FILE = "config.yaml"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run left behind: its summary, and every file or the reason why there is none."""
+
+    folder: Path
+    summary: dict[str, Any]
+    written: dict[str, Written] = field(default_factory=dict)
+
+
+class Listener:
+    """Hears how a session goes; this one says nothing."""
+
+    def building(self) -> None:
+        """Generators start."""
+
+    def compiling(self) -> None:
+        """Kernels are about to be compiled for the first time."""
+
+    def started(self, simulation: Simulation) -> None:
+        """The step loop starts."""
+
+    def progress(self, simulation: Simulation, rate: float) -> None:
+        """Some steps were taken, at a rate in steps per second."""
+
+    def writing(self, name: str) -> None:
+        """A writer starts."""
+
+
+def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener: Listener | None = None) -> Outcome:
+    """Run a scene into a folder.
+
+    Parameters
+    ----------
+    config : SceneConfig
+    folder : Path
+        Made when missing; must not hold another run unless ``resume``.
+    resume : bool
+        Go on from the folder's last good checkpoint.
+    listener : Listener, optional
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    Interrupted
+        After Ctrl-C or SIGTERM, with a checkpoint written.
+    RunError
+        If the folder, the checkpoint or the run fails.
+    """
+    listener = listener or Listener()
+    prepare_folder(folder, resume)
+    listener.building()
+    simulation = Simulation(config)
+    if simulation.kernel.fresh:
+        listener.compiling()
+    session = _Session(simulation, folder, resume, listener)
+    elapsed, steps = session.advance()
+    return session.finish(elapsed, steps)
+
+
+def prepare_folder(folder: Path, resume: bool) -> None:
+    """Make the run folder.
+
+    Raises
+    ------
+    RunError
+        If it cannot be written, holds a run already, or holds none to resume.
+    """
+    has_run = (folder / "results.h5").exists()
+    if resume and not has_run:
+        raise RunError(f"{folder}: no run to resume here; name its folder with -o, or run without --resume")
+    if has_run and not resume:
+        raise RunError(f"{folder}: holds a run already; add --resume to go on with it, or choose another folder with -o")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / ".probe"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise RunError(f"{folder}: cannot be written ({error.strerror}); choose another folder with -o") from error
+
+
+class _Session:
+    """The step loop with its observers, and what follows it."""
+
+    def __init__(self, simulation: Simulation, folder: Path, resume: bool, listener: Listener) -> None:
+        self.simulation, self.folder, self.listener = simulation, folder, listener
+        notes = checkpoint.load(folder, simulation) if resume else {}
+        self.store = Store(folder, resume)
+        self.samples = Samples(simulation, self.store)
+        self.frames = Frames(simulation, self.store)
+        if resume:
+            self.store.cut(notes["lengths"])
+            self.samples.previous_step = int(notes["previous_sample"])
+        else:
+            (folder / CONFIG_FILE).write_text(dump_yaml(simulation.config.resolved()))
+            self.store.describe(simulation)
+
+    def advance(self) -> tuple[float, int]:
+        """Run to the end; return seconds and steps of this session."""
+        simulation, listener = self.simulation, self.listener
+        first = simulation.step
+        output = simulation.config.output
+        watch = Watch(listener.progress, self.save, output.checkpoint)
+        with watch:
+            try:
+                simulation.advance_to(first)  # compiles
+                if first == 0:
+                    self._look_at_start()
+                listener.started(simulation)
+                begun = time.perf_counter()
+                simulation.run([self.samples, self.frames, watch])
+                elapsed = time.perf_counter() - begun
+                self.save()
+            except Interrupted:
+                self.save()
+                raise
+            finally:
+                with suppress(RunError, OSError):
+                    self.store.keep_cracks(simulation)
+                    self.store.close(complete=simulation.step >= simulation.last_step)
+        return elapsed, simulation.step - first
+
+    def _look_at_start(self) -> None:
+        self.samples.observe(self.simulation)
+        if self.frames.every:
+            self.frames.observe(self.simulation)
+
+    def save(self) -> None:
+        """Write results and checkpoint to disk, in this order, so that the checkpoint never knows more."""
+        self.store.keep_cracks(self.simulation)
+        self.store.flush()
+        notes = {"lengths": self.store.lengths(), "previous_sample": self.samples.previous_step}
+        checkpoint.save(self.folder, self.simulation, notes)
+
+    def finish(self, elapsed: float, steps: int) -> Outcome:
+        """Write curves and summary, and let every writer of the scene write."""
+        written: dict[str, Written] = {}
+        with open_run(self.folder) as run:
+            path = curves.write(self.folder / curves.FILE, {k: np.asarray(v) for k, v in run.curves.items()})
+            written["curves"] = Written(path)
+            told = summary.summarise(self.simulation, run.curves, elapsed, steps)
+            written["summary"] = Written(summary.write(self.folder, told))
+        with open_run(self.folder) as run:
+            for chosen in self.simulation.config.output.writers:
+                self.listener.writing(chosen.name)
+                written[chosen.name] = self._write(chosen, run)
+        return Outcome(self.folder, told, {"results": Written(self.store.path), **written})
+
+    def _write(self, chosen: Any, run: Any) -> Written:
+        path = self.folder / chosen.part.file
+        try:
+            result = chosen.part.write(run, chosen.params, path)
+        except (ClastError, OSError) as error:
+            return Written(None, f"not written: {error}")
+        return result if isinstance(result, Written) else Written(path)

@@ -1,0 +1,182 @@
+"""A run on one page: build, advance to the next event, observe, until the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from clast.config.scene import SceneConfig
+from clast.engine.assemble import Kernel, assemble
+from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, STALE, STEP, V, W, X
+from clast.engine.neighbours import find_pairs, find_wall_pairs, remember_positions
+from clast.engine.state import Floats, World
+from clast.engine.tables import intact, slot_view
+from clast.engine.time_step import Limits, choose_step, limits
+from clast.errors import RunError
+from clast.scene.compression import Gauge
+from clast.scene.plan import blueprint, build_world, wall_shapes
+from clast.scene.scene import Scene, build_scene
+
+BOND_COLUMNS = 8
+
+
+class Observer(Protocol):
+    """Looks at a simulation now and then, and changes nothing."""
+
+    def next_step(self, step: int) -> int | None:
+        """Return the next step after ``step`` to look at, None for never again."""
+
+    def observe(self, simulation: Simulation) -> None:
+        """Look at the simulation, at the end of a step that was asked for."""
+
+
+class Simulation:
+    """One scene, running.
+
+    Attributes
+    ----------
+    scene : Scene
+        What the generators made.
+    limits : Limits
+        Limits of the time step.
+    dt : float
+        Time step in s.
+    world : World
+        State of everything; its neighbour lists are replaced when they go stale.
+    gauge : Gauge
+        Reads strain, stress and plate forces.
+    last_step : int
+        Step at which the scene ends.
+    removed : int
+        Particles that have left the domain.
+    rebuilds : int
+        How often neighbour lists were made.
+    """
+
+    def __init__(self, config: SceneConfig) -> None:
+        self.config = config
+        self.scene: Scene = build_scene(config)
+        self.plan = blueprint(self.scene)
+        self.limits: Limits = limits(self.scene, self.plan)
+        self.dt = choose_step(self.scene, self.limits)
+        self.skin = choose_skin(self.scene)
+        self.gauge = Gauge(config)
+        self.last_step = self.gauge.last_step(self.dt)
+        self.kernel: Kernel = assemble(self.plan)
+        self.world: World = build_world(self.scene, self.plan, self.dt, self.skin)
+        self.removed = 0
+        self.rebuilds = 0
+        self._shapes = wall_shapes(self.scene)
+        self.renew_lists()
+
+    @property
+    def step(self) -> int:
+        """Number of finished steps."""
+        return int(self.world.clock[STEP])
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s."""
+        return self.step * self.dt
+
+    @property
+    def bonds_broken(self) -> int:
+        """Number of bonds that broke."""
+        return int(self.world.cracks.count[0])
+
+    @property
+    def bonds_intact(self) -> int:
+        """Number of bonds that hold."""
+        return int(np.count_nonzero(intact(self.world.bonds)))
+
+    def run(self, observers: Sequence[Observer] = ()) -> None:
+        """Advance to the end, stopping where observers want to look.
+
+        Raises
+        ------
+        RunError
+            If the run blows up; see :meth:`advance_to`.
+        """
+        while self.step < self.last_step:
+            due = [observer.next_step(self.step) for observer in observers]
+            self.advance_to(min([self.last_step, *(step for step in due if step is not None)]))
+            for observer, step in zip(observers, due, strict=True):
+                if step == self.step:
+                    observer.observe(self)
+
+    def advance_to(self, step: int) -> None:
+        """Advance to a step, making neighbour lists anew whenever they go stale.
+
+        Raises
+        ------
+        RunError
+            If positions stop being numbers or a particle outruns its neighbours: the step was too large.
+        """
+        while self.kernel.advance(self.world, step) == STALE:
+            self._refuse_blow_up()
+            self._remove_leavers()
+            self.renew_lists()
+
+    def renew_lists(self) -> None:
+        """Search for neighbours at the present positions."""
+        world = self.world
+        particles, history = world.particles, self.plan.history
+        if self.plan.contacts is not None:
+            search = self.config.neighbours.search.part
+            if self.plan.contacts.between_particles:
+                pairs = find_pairs(particles, world.bonds, world.pairs, search, self.skin)
+                world = world._replace(pairs=pairs)
+            near = find_wall_pairs(particles, world.walls, world.wall_pairs, self._shapes, self.skin)
+            world = world._replace(wall_pairs=near)
+        remember_positions(particles, world.walls)
+        self.world = world
+        self.rebuilds += 1
+
+    def bond_loads(self) -> Floats:
+        """Return what every bond carries now, (m, 8); columns as in ``kernels.observe``."""
+        output = np.zeros((len(self.scene.ends), BOND_COLUMNS))
+        self.kernel.observe(self.world, output)
+        return output
+
+    def _refuse_blow_up(self) -> None:
+        particles = self.world.particles
+        here = particles.present != 0
+        x, v = particles.pose[here, X : X + 3], particles.twist[here, V : V + 3]
+        reach = float(self.scene.radius.min())
+        lost = ~np.isfinite(x).all(axis=1) | ~(np.abs(v).max(axis=1) * self.dt < reach)
+        if lost.any():
+            k = int(np.nonzero(here)[0][np.argmax(lost)])
+            raise RunError(
+                f"the run blew up at step {self.step} (t = {self.time:.4g} s): particle {k} "
+                f"{'is nowhere' if not np.isfinite(x).all() else 'moves farther than its radius in one step'}. "
+                f"The step is {self.dt:.4g} s, the limit of the bonds {self.limits.stable:.4g} s: take a smaller "
+                "time.step, or look for overlapping or very stiff parts with 'clast check --build'"
+            )
+
+    def _remove_leavers(self) -> None:
+        domain = self.config.boundaries.domain
+        if domain is None:
+            return
+        particles, bonds = self.world.particles, self.world.bonds
+        x = particles.pose[:, X : X + 3]
+        outside = ((x < np.array(domain.lower)) | (x > np.array(domain.upper))).any(axis=1)
+        leaving = outside & (particles.present != 0)
+        if not leaving.any():
+            return
+        self.removed += int(leaving.sum())
+        particles.present[leaving] = 0
+        particles.twist[leaving, V : V + 3] = 0.0
+        particles.twist[leaving, W : W + 3] = 0.0
+        particles.twist[leaving, INVERSE_MASS] = particles.twist[leaving, INVERSE_INERTIA] = 0.0
+        particles.acceleration[leaving] = 0.0
+        if len(bonds.first):
+            let_go = leaving[bonds.first] | leaving[bonds.second]
+            slot_view(bonds, INTACT)[let_go] = 0.0
+
+
+def choose_skin(scene: Scene) -> float:
+    """Return the skin of the neighbour lists in m: as the config says, or two fifths of the smallest radius."""
+    skin = scene.config.neighbours.skin
+    return float(skin) if not isinstance(skin, str) else 0.4 * float(scene.radius.min())

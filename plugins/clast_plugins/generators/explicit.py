@@ -1,0 +1,137 @@
+"""Explicit: particles and bonds written in the scene itself."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from clast import hookimpl
+from clast.config.quantities import Length, Point, SpinVector, VelocityVector
+from clast.parts.generator import BondList, Generator, Packing, Prediction
+from clast.parts.params import Params
+from clast.plugins.registry import Registry
+from clast_plugins.generators.grains import connected_grains
+
+REST = (0.0, 0.0, 0.0)
+
+
+class ExplicitParticle(Params):
+    """One particle; at rest unless a velocity or spin is given."""
+
+    position: Annotated[Point, Field(description="Centre")]
+    radius: Annotated[Length, Field(gt=0, description="Radius")]
+    material: Annotated[str | None, Field(description="Material, where it is not the common one")] = None
+    velocity: Annotated[VelocityVector | None, Field(description="Start velocity")] = None
+    spin: Annotated[SpinVector | None, Field(description="Start angular velocity")] = None
+    prescribed: Annotated[bool, Field(description="Keeps its velocity and spin whatever pushes it")] = False
+    fixed: Annotated[bool, Field(description="Stays where it is and does not turn")] = False
+
+    @model_validator(mode="after")
+    def _fixed_rests(self) -> ExplicitParticle:
+        if self.fixed and (self.velocity not in (None, REST) or self.spin not in (None, REST)):
+            raise ValueError(
+                "'fixed: true' means no velocity and no spin, but one is given; "
+                "take 'prescribed: true' for a particle that keeps them, or remove one of the two"
+            )
+        return self
+
+
+class ExplicitBond(Params):
+    """One bond between two particles, which are named by their places in the list, from 0."""
+
+    between: Annotated[tuple[int, int], Field(description="Places of the two particles in the list, from 0")]
+    diameter: Annotated[Length, Field(gt=0, description="Diameter of the bond")]
+    length: Annotated[
+        Length | None, Field(gt=0, description="Initial length; by default the centres' distance")
+    ] = None
+
+
+class Explicit(Params):
+    """Particles and bonds one by one; what bonds connect forms a grain."""
+
+    particles: Annotated[list[ExplicitParticle], Field(min_length=1, description="The particles")]
+    material: Annotated[str | None, Field(description="Material of particles that name none")] = None
+    bonds: Annotated[tuple[ExplicitBond, ...], Field(description="The bonds")] = ()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Explicit:
+        problems = [
+            f"particles.{k} names no material; add 'material' to it, or one for all beside 'particles'"
+            for k, particle in enumerate(self.particles)
+            if particle.material is None and self.material is None
+        ]
+        problems += _bond_problems(self.particles, self.bonds)
+        if problems:
+            raise ValueError("; ".join(problems))
+        return self
+
+
+def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[ExplicitBond]) -> list[str]:
+    problems: list[str] = []
+    seen: dict[frozenset[int], int] = {}
+    for k, bond in enumerate(bonds):
+        missing = [end for end in bond.between if not 0 <= end < len(particles)]
+        first = seen.setdefault(frozenset(bond.between), k)
+        i, j = bond.between
+        if missing:
+            problems.append(f"bonds.{k} names particle {missing[0]}; there are 0 to {len(particles) - 1}")
+        elif i == j:
+            problems.append(
+                f"bonds.{k} connects particle {i} with itself; two different particles are needed"
+            )
+        elif first != k:
+            problems.append(
+                f"bonds.{k} connects particles {i} and {j}, as bonds.{first} does; remove one of them"
+            )
+        elif bond.length is None and particles[i].position == particles[j].position:
+            problems.append(f"bonds.{k}: particles {i} and {j} have one centre; give the bond a 'length'")
+    return problems
+
+
+def predict(params: Explicit, folder: Path) -> Prediction:
+    """Return the number of particles and bonds written."""
+    return Prediction(len(params.particles), len(params.bonds))
+
+
+def generate(params: Explicit, folder: Path) -> Packing:
+    """Put the written particles and bonds into arrays."""
+    particles = params.particles
+    bonds = _bond_list(params.bonds)
+    return Packing(
+        position=np.array([p.position for p in particles]),
+        radius=np.array([p.radius for p in particles]),
+        material=[p.material or params.material or "" for p in particles],
+        velocity=np.array([p.velocity or REST for p in particles]),
+        spin=np.array([p.spin or REST for p in particles]),
+        prescribed=np.array([p.prescribed or p.fixed for p in particles]),
+        grain=connected_grains(len(particles), bonds.ends),
+        bonds=bonds if params.bonds else None,
+        report={"particles": len(particles), "bonds_written": len(params.bonds)},
+    )
+
+
+def _bond_list(bonds: Sequence[ExplicitBond]) -> BondList:
+    return BondList(
+        ends=np.array([bond.between for bond in bonds], np.int64).reshape(-1, 2),
+        diameter=np.array([bond.diameter for bond in bonds], np.float64),
+        length=np.array([math.nan if bond.length is None else bond.length for bond in bonds], np.float64),
+    )
+
+
+@hookimpl
+def clast_register(registry: Registry) -> None:
+    """Offer particles and bonds written in the scene."""
+    registry.generator(
+        "explicit",
+        Generator(
+            summary="particles and bonds written in the scene",
+            Params=Explicit,
+            generate=generate,
+            predict=predict,
+        ),
+    )

@@ -1,0 +1,178 @@
+"""Agglomerates hold what was asked for, stay inside their body, and say what they reached."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from clast.errors import PackingError
+from clast.parts.generator import Packing
+from clast.scene.bonding import bond_neighbours
+from clast.scene.packing_report import overlaps
+from pydantic import ValidationError
+
+from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
+from clast_plugins.generators.flattened_agglomerate import FlattenedAgglomerate
+from clast_plugins.generators.spherical_agglomerate import SphericalAgglomerate
+
+HERE = Path()
+
+
+def sphere(**changes: Any) -> SphericalAgglomerate:
+    given: dict[str, Any] = {
+        "material": "glass",
+        "diameter": "2.16 mm",
+        "primary_diameter": "0.25 mm",
+        "porosity": 0.44,
+        "seed": 1,
+    }
+    return SphericalAgglomerate.model_validate(
+        {key: value for key, value in (given | changes).items() if value is not None}
+    )
+
+
+def flattened(**changes: Any) -> FlattenedAgglomerate:
+    given: dict[str, Any] = {
+        "material": "glass",
+        "volume_diameter": "2.3 mm",
+        "height": "2.16 mm",
+        "primary_diameter": "0.25 mm",
+        "porosity": 0.45,
+    }
+    return FlattenedAgglomerate.model_validate(
+        {key: value for key, value in (given | changes).items() if value is not None}
+    )
+
+
+def bonds_at_half_a_primary(packing: Packing) -> int:
+    return len(bond_neighbours(packing.position, packing.radius, max_gap=float(packing.radius[0])).ends)
+
+
+@pytest.fixture(scope="module")
+def base_grain() -> Packing:
+    return spherical_agglomerate.generate(sphere(), HERE)
+
+
+@pytest.fixture(scope="module")
+def optimised_grain() -> Packing:
+    return flattened_agglomerate.generate(flattened(), HERE)
+
+
+@pytest.mark.parametrize(("porosity", "count"), [(0.44, 361), (0.45, 354), (0.60, 257)])
+def test_the_number_of_primaries_follows_from_the_porosity(porosity: float, count: int) -> None:
+    assert spherical_agglomerate.predict(sphere(porosity=porosity), HERE).particles == count
+
+
+def test_a_count_that_comes_out_even_is_not_lost_to_rounding() -> None:
+    params = sphere(diameter="0.3 mm", primary_diameter="0.1 mm", porosity=1 - 9 / 27)
+    assert spherical_agglomerate.predict(params, HERE).particles == 9
+
+
+def test_the_flattened_grain_counts_from_the_uncut_sphere() -> None:
+    assert flattened_agglomerate.predict(flattened(), HERE).particles == 428
+
+
+def test_the_base_grain_has_as_many_bonds_as_the_paper_says(base_grain: Packing) -> None:
+    assert len(base_grain.position) == 361
+    assert 2120 <= bonds_at_half_a_primary(base_grain) <= 2180
+
+
+def test_every_primary_lies_wholly_in_the_sphere_and_overlaps_no_more_than_allowed(
+    base_grain: Packing,
+) -> None:
+    reach = np.linalg.norm(base_grain.position, axis=1) + base_grain.radius
+    assert reach.max() <= 1.08e-3 * (1 + 1e-12)
+    assert overlaps(base_grain.position, base_grain.radius).largest <= 1e-4 * 0.25e-3
+
+
+def test_the_report_agrees_with_the_packing(base_grain: Packing) -> None:
+    report = base_grain.report
+    assert report["primaries"] == 361
+    assert report["porosity_asked"] == 0.44
+    assert report["porosity_reached"] == pytest.approx(1 - 361 * (0.25 / 2.16) ** 3, rel=1e-12)
+    assert report["largest_overlap_m"] == overlaps(base_grain.position, base_grain.radius).largest
+    assert report["overlaps_within_tolerance"] == "yes"
+    assert report["seed"] == 1
+
+
+def test_the_flattened_grain_fits_between_its_plates_and_touches_both(optimised_grain: Packing) -> None:
+    x, r = optimised_grain.position, optimised_grain.radius
+    top, bottom = x[:, 2] + r, x[:, 2] - r
+    assert top.max() == pytest.approx(1.08e-3, rel=1e-12)
+    assert bottom.min() == pytest.approx(-1.08e-3, rel=1e-12)
+    assert (np.linalg.norm(x, axis=1) + r).max() <= 1.15e-3 * (1 + 1e-12)
+    assert 3 <= np.count_nonzero(top > 1.08e-3 - 0.25e-6) <= 9
+
+
+def test_the_flattened_grain_has_about_as_many_bonds_as_the_reference(optimised_grain: Packing) -> None:
+    assert 2500 <= bonds_at_half_a_primary(optimised_grain) <= 2600
+    assert optimised_grain.report["height_m"] == pytest.approx(2.16e-3)
+    assert 2.16e-3 < float(optimised_grain.report["width_m"]) <= 2.3e-3 * (1 + 1e-12)
+    between = float(optimised_grain.report["porosity_between_plates"])
+    assert between < float(optimised_grain.report["porosity_reached"])
+
+
+def test_the_centre_only_moves_the_packing() -> None:
+    small: dict[str, Any] = {"diameter": "0.8 mm", "primary_diameter": "0.2 mm", "porosity": 0.6}
+    here = spherical_agglomerate.generate(sphere(**small), HERE)
+    there = spherical_agglomerate.generate(sphere(**small, centre=["1 mm", 0, "-2 mm"]), HERE)
+    np.testing.assert_allclose(there.position - [1e-3, 0, -2e-3], here.position, atol=1e-18)
+
+
+def test_too_dense_a_packing_is_an_error_that_says_what_was_reached_and_what_to_do() -> None:
+    dense = sphere(diameter="0.75 mm", primary_diameter="0.25 mm", porosity=0.3)
+    with pytest.raises(PackingError, match=r"18 primaries.*porosity 0\.3.*overlap of \d+.*accept_overlap"):
+        spherical_agglomerate.generate(dense, HERE)
+
+
+def test_accepted_overlaps_stay_and_are_reported() -> None:
+    dense = sphere(diameter="0.75 mm", primary_diameter="0.25 mm", porosity=0.3, accept_overlap=True)
+    packing = spherical_agglomerate.generate(dense, HERE)
+    assert packing.report["overlaps_within_tolerance"] == "no, accepted"
+    assert float(packing.report["largest_overlap_m"]) > 1e-5
+
+
+def test_a_wider_tolerance_accepts_the_overlap_it_names() -> None:
+    packing = spherical_agglomerate.generate(sphere(max_overlap="1 um"), HERE)
+    assert 0 < float(packing.report["largest_overlap_m"]) <= 1e-6
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"porosity": None}, "exactly one of 'porosity' and 'primaries'"),
+        ({"primaries": 100}, "exactly one of 'porosity' and 'primaries'"),
+        ({"porosity": 1.2}, "less than 1"),
+        ({"primary_diameter": "3 mm"}, "does not fit into"),
+        ({"primary_diameter": "0.25 um"}, "check the diameters and their units"),
+        ({"diameter": "-2 mm"}, "greater than 0"),
+        ({"primary_diameter": "2 mm", "porosity": 0.9}, "makes 0 primaries"),
+    ],
+)
+def test_senseless_measures_of_a_sphere_are_refused(changes: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(ValidationError, match=sentence):
+        sphere(**changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"height": "2.4 mm"}, "nothing would be flattened"),
+        ({"height": "0.2 mm"}, "does not fit between"),
+        ({"porosity": None}, "exactly one"),
+    ],
+)
+def test_senseless_measures_of_a_flattened_sphere_are_refused(changes: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(ValidationError, match=sentence):
+        flattened(**changes)
+
+
+def test_a_packing_has_one_entry_per_primary_in_every_array(base_grain: Packing) -> None:
+    assert base_grain.velocity.shape == base_grain.spin.shape == base_grain.position.shape == (361, 3)
+    assert base_grain.material == ["glass"] * 361
+    assert not base_grain.prescribed.any()
+    assert base_grain.bonds is None
+    assert math.isclose(base_grain.radius.max(), 0.125e-3)

@@ -1,0 +1,56 @@
+"""Timelines of a recording: time always, strain where it only grows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from clast.results.run import Run
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Timelines:
+    """Where each frame lies on the timelines ``time`` and ``strain``.
+
+    rerun knows only time as a continuous axis, so one percent of strain is shown as one second.
+
+    Attributes
+    ----------
+    time : (F,) float64
+        Time of each frame in s.
+    strain : (F,) float64 or None
+        Strain of each frame, or None where strain names no frame: no compression, or it turns back.
+    """
+
+    time: NDArray[np.float64]
+    strain: NDArray[np.float64] | None
+
+    @classmethod
+    def of(cls, run: Run) -> Timelines:
+        """Read the timelines of a run."""
+        strain = run.frame_values("strain")
+        grows = len(strain) > 1 and bool(np.all(np.diff(strain) > 0.0))
+        return cls(run.frame_values("time"), strain if grows else None)
+
+    def set(self, stream: Any, k: int) -> None:
+        """Move the stream to frame ``k``."""
+        stream.set_time("time", duration=float(self.time[k]))
+        if self.strain is not None:
+            stream.set_time("strain", duration=100.0 * float(self.strain[k]))
+
+    def columns(self, time: NDArray[np.float64], strain: NDArray[np.float64] | None) -> list[Any]:
+        """Build the index columns of samples taken at ``time`` and ``strain``."""
+        import rerun as rr
+
+        columns = [rr.TimeColumn("time", duration=time)]
+        if self.strain is not None and strain is not None:
+            columns.append(rr.TimeColumn("strain", duration=100.0 * strain))
+        return columns
+
+    def since_previous(self, time: NDArray[np.float64], k: int) -> NDArray[np.bool_]:
+        """Mark the events after frame ``k - 1`` up to and with frame ``k``."""
+        earlier = self.time[k - 1] if k else -np.inf
+        since: NDArray[np.bool_] = (time > earlier) & (time <= self.time[k])
+        return since
