@@ -5,8 +5,9 @@ import subprocess
 import sys
 
 import pytest
-from clast.cli import main
 from click.testing import CliRunner
+
+from clast.cli import main
 
 HEAVY = ("numba", "h5py", "rerun", "vtk", "vtkmodules", "pyvista", "matplotlib")
 

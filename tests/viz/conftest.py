@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from clast.results.run import Run, open_run
 
+from clast.results.run import Run, open_run
 from tests.viz.synthetic_run import small_grain, two_spheres, write_run
 
 

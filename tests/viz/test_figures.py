@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import clast_viz.picture
-import clast_viz.renderer
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
+import clast_viz.picture
+import clast_viz.renderer
 from clast.errors import RunError
 from clast.results.run import Run
 from clast_viz.compare import plot_stress_strain
@@ -16,7 +18,6 @@ from clast_viz.figure import FigureParams, write_figure
 from clast_viz.loads import colour_of, signed_load
 from clast_viz.picture import PictureParams, write_picture
 from clast_viz.renderer import RendererProbe
-from numpy.typing import NDArray
 
 SMALL = PictureParams(width=320, height=240)
 

@@ -7,8 +7,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import clast_viz
 import pytest
+
+import clast_viz
 from clast import view_command
 from clast.errors import RunError
 from clast_viz.whole_file import whole_file

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 from clast.results.run import Run, open_run
 from clast_viz.loads import colour_of, drawn_bonds, signed_load
 from clast_viz.recording import RecordingParams, write_recording
 from clast_viz.recording_plot import Plot
-from numpy.typing import NDArray
-
 from tests.viz.synthetic_run import FRAMES, LEAVES_AT, small_grain, write_run
 
 rerun = pytest.importorskip("rerun")

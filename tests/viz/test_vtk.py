@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from clast.results.run import Run, open_run
 from clast_viz.vtk import VtkParams, write_vtk
-
 from tests.viz.synthetic_run import FRAMES, LEAVES_AT
 
 

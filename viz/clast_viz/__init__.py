@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from clast import hookimpl
 from clast.parts.writer import Writer
-
 from clast_viz import figure, picture, recording, vtk
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from clast.errors import RunError
 from clast.results.run import Run
-
 from clast_viz.curves import has_compression
 from clast_viz.figure import STYLE, draw_references, finish_axes, new_axes, save
 from clast_viz.whole_file import whole_file

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
+from pydantic import Field
+
 from clast.parts.params import Params
 from clast.parts.writer import Written
 from clast.results.run import Reference, Run
-from pydantic import Field
-
 from clast_viz.curves import has_compression, peak
 from clast_viz.whole_file import whole_file
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from clast.results.run import Frame
 from numpy.typing import NDArray
+
+from clast.results.run import Frame
 
 # Brewer's diverging blue to red (colorbrewer2.org, RdBu) with a grey middle that is seen on white.
 _ANCHORS = (

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from clast.parts.params import Params
-from clast.parts.writer import Written
-from clast.results.run import Frame, Run
 from numpy.typing import NDArray
 from pydantic import Field
 
+from clast.parts.params import Params
+from clast.parts.writer import Written
+from clast.results.run import Frame, Run
 from clast_viz.curves import peak_frame
 from clast_viz.loads import drawn_bonds, load_colours, signed_load
 from clast_viz.renderer import NO_RENDERER, RendererProbe, quiet_vtk

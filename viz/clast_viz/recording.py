@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from clast.parts.params import Params
-from clast.parts.writer import Written
-from clast.results.run import Frame, Run
 from numpy.typing import NDArray
 from pydantic import Field
 
+from clast.parts.params import Params
+from clast.parts.writer import Written
+from clast.results.run import Frame, Run
 from clast_viz.loads import colour_of, drawn_bonds, signed_load
 from clast_viz.recording_layout import layout, magnification
 from clast_viz.recording_plot import Plot, log_plot, log_plot_until

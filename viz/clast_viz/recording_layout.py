@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from clast.results.run import Run
 
-from clast_viz.recording_plot import HEIGHT, WIDTH, Plot
+from clast.results.run import Run
+from clast_viz.recording_plot import HEIGHT, LINE, WIDTH, Plot
 from clast_viz.recording_series import shown_series
 from clast_viz.recording_time import Timelines
 
@@ -22,7 +22,7 @@ def layout(run: Run, timelines: Timelines, plot: Plot | None) -> Any:
 
     right = []
     if plot is not None:
-        right.append(_plot_view())
+        right.append(_plot_view(len(run.reference)))
     right += _series_views(run)
     if _has_events(run):
         columns = rrb.TextLogColumns(text_log_columns=["LogLevel", "Body"])
@@ -97,14 +97,15 @@ def _bounds(run: Run) -> tuple[np.ndarray[Any, np.dtype[np.float64]], float]:
     return 0.5 * (low + high), float(np.linalg.norm(high - low)) + 2.0 * float(run.radius.max())
 
 
-def _plot_view() -> Any:
+def _plot_view(references: int) -> Any:
     import rerun.blueprint as rrb
 
     return rrb.Spatial2DView(
         origin="stress_strain",
         name="Stress over strain",
         visual_bounds=rrb.VisualBounds2D(
-            x_range=(-0.14 * WIDTH, 1.06 * WIDTH), y_range=(-1.18 * HEIGHT, 0.24 * HEIGHT)
+            x_range=(-0.14 * WIDTH, 1.06 * WIDTH),
+            y_range=(-1.18 * HEIGHT - LINE * max(references - 1, 0), 0.24 * HEIGHT),
         ),
     )
 

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from clast.results.run import Run
 from numpy.typing import NDArray
 
+from clast.results.run import Reference, Run
 from clast_viz.curves import has_compression
 
 WIDTH, HEIGHT = 160.0, 100.0
+LINE = 11.0  # height of a line of text
 _CURVE_POINTS = 600  # per frame; keeps a recording of thousands of frames linear in size
 
 AXIS_COLOUR = (150, 158, 168)
@@ -68,7 +69,7 @@ def log_plot(stream: Any, run: Run, plot: Plot | None) -> None:
     whole = plot.place(run.curves["strain"][chosen], run.curves["stress_Pa"][chosen])
     stream.log("stress_strain/whole", rr.LineStrips2D([whole], colors=FAINT_COLOUR, radii=-0.75), static=True)
     for k, reference in enumerate(run.reference):
-        _log_reference(stream, plot, f"stress_strain/reference/{k}", reference)
+        _log_reference(stream, plot, k, reference)
 
 
 def log_plot_until(stream: Any, run: Run, plot: Plot | None, time: float) -> None:
@@ -86,22 +87,23 @@ def log_plot_until(stream: Any, run: Run, plot: Plot | None, time: float) -> Non
     stream.log("stress_strain/now", rr.Points2D(points[-1:], colors=NOW_COLOUR, radii=-4.0, draw_order=50.0))
 
 
-def _log_reference(stream: Any, plot: Plot, entity: str, reference: Any) -> None:
+def _log_reference(stream: Any, plot: Plot, k: int, reference: Reference) -> None:
     import rerun as rr
 
+    entity = f"stress_strain/reference/{k}"
     strain, stress = reference.strain, reference.stress
     across = plot.place(strain + np.array([-1, 1]) * reference.strain_deviation, stress)
     upright = plot.place(strain, stress + np.array([-1, 1]) * reference.stress_deviation)
     bars = rr.LineStrips2D([across, upright], colors=REFERENCE_COLOUR, radii=-1.0)
     stream.log(f"{entity}/scatter", bars, static=True)
-    point = rr.Points2D(
-        plot.place([strain], stress),
-        colors=REFERENCE_COLOUR,
-        radii=-4.5,
-        labels=[reference.label],
-        show_labels=True,
-    )
+    point = rr.Points2D(plot.place([strain], stress), colors=REFERENCE_COLOUR, radii=-4.5)
     stream.log(f"{entity}/point", point, static=True)
+    # above the axes, where it covers no curve
+    above = [[0.62 * WIDTH, -HEIGHT - 15.0 - LINE * k]]
+    label = rr.Points2D(
+        above, radii=0.0, colors=REFERENCE_COLOUR, labels=[f"● {reference.label}"], show_labels=True
+    )
+    stream.log(f"{entity}/label", label, static=True)
 
 
 def _log_axes(stream: Any, plot: Plot) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from clast.results.run import Frame, Run
 
+from clast.results.run import Frame, Run
 from clast_viz.curves import has_compression, peak
 from clast_viz.recording_time import Timelines
 
@@ -25,6 +25,7 @@ SERIES = {
     "strain": Series("curves/strain", "strain [%]", 100.0, (140, 150, 165)),
     "bonds_broken": Series("curves/bonds_broken", "bonds broken", 1.0, (255, 140, 0)),
 }
+CRACK_COLOUR, LOST_COLOUR, PEAK_COLOUR = (255, 140, 0), (235, 90, 90), (120, 200, 255)
 FORCE_COLOURS = ((67, 147, 195), (214, 96, 77), (90, 174, 97), (153, 112, 171), (191, 129, 45))
 
 
@@ -68,11 +69,11 @@ class Events:
         self._broken += len(modes)
         if len(modes):
             text = _cracks_sentence(self._run, modes, self._broken)
-            stream.log("events", rr.TextLog(text, level="INFO"))
+            stream.log("events", rr.TextLog(text, level="CRACK", color=CRACK_COLOUR))
         present = int(np.isfinite(frame.position[:, 0]).sum())
         if present < self._present:
             text = f"{_count(self._present - present, 'particle')} left the domain ({present} remain)"
-            stream.log("events", rr.TextLog(text, level="WARN"))
+            stream.log("events", rr.TextLog(text, level="LOST", color=LOST_COLOUR))
         self._present = present
 
 
@@ -88,7 +89,7 @@ def log_peak(stream: Any, run: Run, timelines: Timelines) -> None:
     if timelines.strain is not None:
         stream.set_time("strain", duration=100.0 * top.strain)
     text = f"peak stress {top.stress / 1e6:.3g} MPa at {top.strain:.1%} strain"
-    stream.log("events", rr.TextLog(text, level="WARN"))
+    stream.log("events", rr.TextLog(text, level="PEAK", color=PEAK_COLOUR))
 
 
 def _cracks_sentence(run: Run, modes: Any, total: int) -> str:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from clast.results.run import Run
 from numpy.typing import NDArray
+
+from clast.results.run import Run
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ file of every function reachable from a part, and the value of every plain const
 from __future__ import annotations
 
 import hashlib
-import inspect
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
@@ -87,19 +87,16 @@ def constant_text(value: Any) -> str | None:
     return None
 
 
-def source_file(item: FunctionType | type) -> Path:
-    """Return the file a function or class was read from."""
-    return Path(inspect.getsourcefile(item) or "")
-
-
 def source_files(functions: Iterable[Callable[..., Any]]) -> set[Path]:
     """Return the files of all functions reachable from the given ones, and of the classes they use."""
     files: set[Path] = set()
     for function in reachable(functions):
-        files.add(source_file(function))
-        for value in referred(function).values():
-            if isinstance(value, type) and value.__module__.split(".")[0] not in FOREIGN:
-                files.add(source_file(value))
+        used = [v for v in referred(function).values() if isinstance(v, type)]
+        modules = {function.__module__, *(each.__module__ for each in used)}
+        for name in modules:
+            file = getattr(sys.modules.get(name), "__file__", None)
+            if file is not None and name.split(".")[0] not in FOREIGN:
+                files.add(Path(file))
     return files
 
 

@@ -13,7 +13,14 @@ from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
 from clast.engine.kernels.layout import CONTACT_REST, LANES
 from clast.engine.records import fields, numbers, width
 from clast.engine.state import Bonds, Floats, Numbers, Walls, World
-from clast.engine.tables import bond_table, crack_table, empty_pairs, empty_wall_pairs, no_bonds, particle_tables
+from clast.engine.tables import (
+    bond_table,
+    crack_table,
+    empty_pairs,
+    empty_wall_pairs,
+    no_bonds,
+    particle_tables,
+)
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
 from clast.scene.scene import Scene

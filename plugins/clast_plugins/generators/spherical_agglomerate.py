@@ -31,9 +31,9 @@ class SphericalAgglomerate(AgglomerateParams):
     Symbols: D diameter of the agglomerate in m; d diameter of a primary in m; p porosity, the share of the
     agglomerate's sphere that the primaries leave free.
 
-    Spheres line up along the surface, so a few large ones do not fill a ball as densely as many small ones: in
-    2.16 mm, primaries of 0.25 mm reach porosity 0.43, of 0.40 mm 0.47 and of 0.50 mm 0.48. Below that an overlap
-    stays, which ``accept_overlap`` takes.
+    Spheres line up along the surface, so a few large ones do not fill a ball as densely as many small ones:
+    in 2.16 mm, primaries of 0.25 mm reach porosity 0.43, of 0.40 mm 0.47 and of 0.50 mm 0.48. Below that an
+    overlap stays, which ``accept_overlap`` takes.
 
     Source: Rotter, Dosta and Düster (2023), doi:10.1007/s40571-023-00610-0, Section 4.1. Its grain, 361
     primaries of 0.25 mm in 2.16 mm, has porosity 0.44:

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import pytest
+from fake_parts import SCENE, Ball, Elastic, Explicit, FakeMotion, FakePart, Moving, Nothing, Plane
+
 from clast.config import scene as scene_module
 from clast.parts.generator import Generator, Prediction
 from clast.plugins.registry import Registry, Source
-from fake_parts import SCENE, Ball, Elastic, Explicit, FakeMotion, FakePart, Moving, Nothing, Plane
 
 
 @pytest.fixture

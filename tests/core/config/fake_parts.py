@@ -4,9 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from pydantic import Field
+
 from clast.config.quantities import Direction, Length, Point, Stress, VelocityVector
 from clast.parts.params import Params
-from pydantic import Field
 
 SCENE = """\
 materials:

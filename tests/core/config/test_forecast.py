@@ -3,6 +3,7 @@
 from math import pi, sqrt
 
 import pytest
+
 from clast.config.forecast import forecast
 from clast.parts.bond_model import Stiffness
 

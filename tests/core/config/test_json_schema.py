@@ -2,9 +2,10 @@
 
 import json
 
+from fake_parts import Ball, Explicit
+
 from clast.config.describe import parameters, part_text, plugins_text
 from clast.config.json_schema import scene_schema
-from fake_parts import Ball, Explicit
 
 
 def _references(value):

@@ -1,6 +1,7 @@
 """Values changed from the command line."""
 
 import pytest
+
 from clast.errors import ConfigError
 
 

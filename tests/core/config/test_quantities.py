@@ -6,6 +6,10 @@ from typing import Annotated
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import Field, TypeAdapter, ValidationError
+
 from clast.config.quantities import (
     Angle,
     AngularVelocity,
@@ -18,9 +22,6 @@ from clast.config.quantities import (
     to_si,
 )
 from clast.config.units import unit_factor
-from hypothesis import given
-from hypothesis import strategies as st
-from pydantic import Field, TypeAdapter, ValidationError
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+
 from clast.config.forecast import forecast
 from clast.config.scene import from_mapping, load
 from clast.config.yaml_loader import dump_yaml, parse_document

@@ -3,13 +3,14 @@
 import copy
 
 import pytest
+from fake_parts import SCENE, Ball, Elastic
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
 from clast.config import scene as scene_module
 from clast.config.sections import StepRule
 from clast.config.yaml_loader import dump_yaml, parse_document
 from clast.errors import ConfigError
-from fake_parts import SCENE, Ball, Elastic
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 
 def _said(load, *replacements, **options):

@@ -3,10 +3,11 @@
 import math
 
 import pytest
-from clast.config.yaml_loader import dump_yaml, parse_document, parse_value, read_document
-from clast.errors import ConfigError
 from hypothesis import given
 from hypothesis import strategies as st
+
+from clast.config.yaml_loader import dump_yaml, parse_document, parse_value, read_document
+from clast.errors import ConfigError
 
 
 @pytest.mark.parametrize("written", ["5e-7", "5E-7", "0.5e-6", ".5e-6", "+5e-7", "5.e-7"])

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.discovery import load_entry_points, load_file

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
+
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.registry import KINDS, Registry, Source

@@ -9,9 +9,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+
 from clast.errors import RunError
 from clast.results.run import Reference, open_run
-
 from tests.viz.synthetic_run import FRAMES, LEAVES_AT, small_grain, two_spheres, write_run
 
 

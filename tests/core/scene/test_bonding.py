@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from clast.scene.bonding import bond_neighbours
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from clast.scene.bonding import bond_neighbours
 
 GRAIN_A = Path(__file__).parents[2] / "data" / "musen" / "grain_a"
 

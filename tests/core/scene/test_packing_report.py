@@ -6,6 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from clast.scene.bonding import bond_neighbours
 from clast.scene.packing_report import (
     bond_coordination,
@@ -15,8 +18,6 @@ from clast.scene.packing_report import (
     porosity,
     sphere_volume,
 )
-from hypothesis import given
-from hypothesis import strategies as st
 
 
 def simple_cubic(edge: int, spacing: float) -> np.ndarray:

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
+
 from clast.errors import PackingError
 from clast.parts.generator import Packing
 from clast.scene.bonding import bond_neighbours
 from clast.scene.packing_report import overlaps
-from pydantic import ValidationError
-
 from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
 from clast_plugins.generators.flattened_agglomerate import FlattenedAgglomerate
 from clast_plugins.generators.spherical_agglomerate import SphericalAgglomerate

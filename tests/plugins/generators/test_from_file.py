@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from clast.errors import ConfigError
 
+from clast.errors import ConfigError
 from clast_plugins.generators import from_file
 from clast_plugins.generators.from_file import FromFile
 

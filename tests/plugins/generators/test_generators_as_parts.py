@@ -8,6 +8,7 @@ import sys
 from importlib import import_module
 
 import pytest
+
 from clast.parts.generator import Generator
 from clast.plugins.registry import Registry
 
