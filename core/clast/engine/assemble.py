@@ -31,6 +31,8 @@ class Kernel:
         See ``kernels.step_loop.advance``.
     observe : (world, output) -> None
         See ``kernels.observe.observe``.
+    near_walls : (particles, walls, skin, near) -> None
+        See ``kernels.near_walls.near_walls``.
     digest : str
         Of every source that takes part.
     fresh : bool
@@ -39,6 +41,7 @@ class Kernel:
 
     advance: Callable[..., int]
     observe: Callable[..., None]
+    near_walls: Callable[..., None]
     digest: str
     fresh: bool
 
@@ -70,9 +73,9 @@ def assemble(plan: Blueprint) -> Kernel:
     _write_package(folder, text)
     _register([*plan.functions(), *helpers])
     package = _import_package(name, folder)
-    loop, view = _submodule(package, "step_loop"), _submodule(package, "observe")
+    loop, view, near = (_submodule(package, part) for part in ("step_loop", "observe", "near_walls"))
     fresh = not any((folder / "__pycache__").glob("step_loop.advance*.nbi"))
-    return Kernel(loop.advance, view.observe, name.removeprefix("clast_kernel_"), fresh)
+    return Kernel(loop.advance, view.observe, near.near_walls, name.removeprefix("clast_kernel_"), fresh)
 
 
 def _template_helpers() -> list[Callable[..., Any]]:

@@ -34,12 +34,27 @@ class BondPlan:
 
 @dataclass(frozen=True)
 class ContactPlan:
-    """How contacts are computed; ``bonded_pairs`` tells whether bonded particles touch too."""
+    """How contacts are computed.
+
+    Attributes
+    ----------
+    choices : NamedTuple
+        Constants of the compiled law.
+    bonded_pairs, between_particles : bool
+        Whether bonded particles touch too, and whether there are two particles at all.
+    one_material : bool
+        Whether all particles are of one material, so that one row of constants serves all their contacts.
+    rests : bool
+        Whether some pairs overlap at the start without pushing.
+    """
 
     law: ContactLaw
     features: Features
+    choices: Any
     bonded_pairs: bool = True
     between_particles: bool = True
+    one_material: bool = True
+    rests: bool = False
 
 
 @dataclass(frozen=True)

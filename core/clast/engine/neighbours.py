@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from clast.engine.state import Bonds, Floats, Integers, Pairs, Particles, WallPa
 from clast.engine.tables import slot_view
 from clast.parts.neighbour_search import NeighbourSearch
 
-NearestPoint = Callable[[Any, Any], Any]
+NearWalls = Callable[..., None]
 
 
 def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: NeighbourSearch, skin: float) -> Pairs:
@@ -27,39 +27,25 @@ def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: Neighbour
     found = here[search.find_pairs(position, reach).astype(np.int64)].reshape(-1, 2)
     movable = particles.twist[:, INVERSE_MASS] > 0.0
     found = found[movable[found].any(axis=1)]
-    touching, history = carried(
-        key(old.first, old.second), old.touching, old.history, key(found[:, 0], found[:, 1])
-    )
+    before, now = key(old.first, old.second), key(found[:, 0], found[:, 1])
+    touching, history, rest = carried(before, now, old.touching, old.history, old.rest)
     return Pairs(
         found[:, 0].astype(np.uint32),
         found[:, 1].astype(np.uint32),
         bond_places(bonds, found),
+        rest,
         touching,
         history,
     )
 
 
-def find_wall_pairs(
-    particles: Particles, walls: Walls, old: WallPairs, shapes: Sequence[tuple[NearestPoint, Any]], skin: float
-) -> WallPairs:
-    """Return the particles closer to a wall than the skin, with the history of those that were known.
-
-    Parameters
-    ----------
-    shapes : sequence of (nearest, shape)
-        The function and the numbers of each wall.
-    """
-    found = [np.zeros((0, 2), np.int64)]
-    for w, (nearest, shape) in enumerate(shapes):
-        x = particles.pose[:, X : X + 3] - walls.displacement[w]
-        distance = np.array([nearest(shape, tuple(point)).distance for point in x.tolist()])
-        near = (distance < particles.pose[:, RADIUS] + skin) & (particles.present != 0)
-        near &= particles.twist[:, INVERSE_MASS] > 0.0
-        found.append(np.column_stack([np.full(near.sum(), w), np.nonzero(near)[0]]))
-    table = np.concatenate(found)
-    touching, history = carried(
-        key(old.wall, old.particle), old.touching, old.history, key(table[:, 0], table[:, 1])
-    )
+def find_wall_pairs(particles: Particles, walls: Walls, old: WallPairs, near_walls: NearWalls, skin: float) -> WallPairs:
+    """Return the particles closer to a wall than the skin, with the history of those that were known."""
+    near = np.zeros((len(walls.shape_kind), len(particles.pose)), np.uint8)
+    near_walls(particles, walls, skin, near)
+    table = np.argwhere(near)
+    before, now = key(old.wall, old.particle), key(table[:, 0], table[:, 1])
+    touching, history = carried(before, now, old.touching, old.history)
     return WallPairs(table[:, 0].astype(np.uint32), table[:, 1].astype(np.uint32), touching, history)
 
 
@@ -68,18 +54,15 @@ def key(first: NDArray[Any], second: NDArray[Any]) -> Integers:
     return first.astype(np.int64) << 32 | second.astype(np.int64)
 
 
-def carried(
-    old_key: Integers, old_touching: NDArray[np.uint8], old_history: Floats, new_key: Integers
-) -> tuple[NDArray[np.uint8], Floats]:
-    """Return touching flags and history rows of the new pairs, taken from the old ones by their sorted keys."""
-    touching = np.zeros(len(new_key), np.uint8)
-    history = np.zeros((len(new_key), old_history.shape[1]))
+def carried(old_key: Integers, new_key: Integers, *old: NDArray[Any]) -> list[NDArray[Any]]:
+    """Return tables for the new pairs, with the rows of those that were known; both keys rise."""
+    new = [np.zeros((len(new_key), *table.shape[1:]), table.dtype) for table in old]
     if len(old_key) > 0:
         at = np.minimum(np.searchsorted(old_key, new_key), len(old_key) - 1)
         known = old_key[at] == new_key
-        touching[known] = old_touching[at[known]]
-        history[known] = old_history[at[known]]
-    return touching, history
+        for table, before in zip(new, old, strict=True):
+            table[known] = before[at[known]]
+    return new
 
 
 def bond_places(bonds: Bonds, pairs: Integers) -> Integers:

@@ -16,7 +16,6 @@ from importlib import import_module
 from clast.engine.compiler import inlined
 from clast.maths.rotation import IDENTITY, spin_about, swing
 from clast.maths.vec3 import ZERO, add
-from clast.parts.contact_law import Features
 from clast.parts.integrator import Stage
 
 from .layout import LANES
@@ -60,9 +59,12 @@ def _flags(plan: Blueprint) -> str:
         "BOND_VELOCITY": plan.bond_velocity,
         "BOND_DAMPING": bonds is not None and bonds.damping,
         "BOND_EVENTS": bonds is not None and bonds.model.on_event is not None,
+        "BOND_FLOW": bonds is not None and bonds.model.flow is not None,
         "FADE": bonds is not None and bonds.fade,
         "CONTACTS": contacts is not None and contacts.between_particles,
         "BONDED_PAIRS_TOUCH": bonds is None or (contacts is not None and contacts.bonded_pairs),
+        "ONE_MATERIAL": contacts is None or contacts.one_material,
+        "RESTS": contacts is not None and contacts.rests,
         "WALLS": bool(plan.walls),
         "BODY_FORCES": bool(plan.body_forces),
         "ORIENTATION": plan.orientation,
@@ -133,7 +135,7 @@ def _bonds(plan: Blueprint) -> str:
         _reader("read_kinematic_state", kinematics.State, "KinematicState", at["kinematic_state"]),
         _writer("write_kinematic_state", kinematics.State, at["kinematic_state"]),
         _reader("read_bond_state", model.State, "BondState", at["state"]),
-        _writer("write_bond_state", model.State if model.flow or model.on_event else None, at["state"]),
+        _writer("write_bond_state", model.State, at["state"]),
         *_bond_constants(bonds, at["constants"]),
         _function("read_damping", "data, lane", f"return ({', '.join(_lane(at['damping'] + k) for k in range(4))})"),
     ]
@@ -157,13 +159,14 @@ def _contacts(plan: Blueprint) -> str:
     if plan.contacts is None:
         names = "contact_load contact_energy read_contact_constants row_constants read_history write_history"
         names += " carry_history fresh_history load_history store_history"
-        return "FEATURES = Features(False, False, False)\n" + " = ".join(names.split()) + " = nothing"
+        return "CHOICES = None\n" + " = ".join(names.split()) + " = nothing"
     law, history = plan.contacts.law, plan.history
     count = width(law.Constants)
     in_lane = [f"data[(first + {k}) * LANES + lane]" for k in range(max(count, width(history)))]
     in_row = [f"row[{k}]" for k in range(count)]
     lines = [
-        f"FEATURES = {plan.contacts.features!r}",
+        _bind("Choices", type(plan.contacts.choices)),
+        f"CHOICES = Choices{tuple(plan.contacts.choices)!r}",
         _bind("contact_load", law.load),
         _bind("contact_energy", law.energy),
         _bind("ContactConstants", law.Constants),

@@ -41,13 +41,14 @@ class Bonds(NamedTuple):
 class Pairs(NamedTuple):
     """Pairs of particles that may touch, in rising order.
 
-    ``bond`` is the place of the pair's bond in the bond table, −1 for none; ``history`` (p, 3 + h) holds the last
-    normal and what the contact law remembers.
+    ``bond`` is the place of the pair's bond in the bond table, −1 for none; ``rest`` the overlap in m up to which the
+    pair does not push; ``history`` (p, 3 + h) holds the last normal and what the contact law remembers.
     """
 
     first: Indices
     second: Indices
     bond: Integers
+    rest: Floats
     touching: Bytes
     history: Floats
 

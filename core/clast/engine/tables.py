@@ -134,7 +134,7 @@ def empty_pairs(history: type | None) -> Pairs:
     """Return an empty list of pairs."""
     none = np.zeros(0, np.uint32)
     row = 3 + width(history) if history else 0
-    return Pairs(none, none.copy(), np.zeros(0, np.int64), np.zeros(0, np.uint8), np.zeros((0, row)))
+    return Pairs(none, none.copy(), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.uint8), np.zeros((0, row)))
 
 
 def empty_wall_pairs(history: type | None) -> WallPairs:

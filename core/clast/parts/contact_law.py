@@ -64,7 +64,7 @@ class MaterialPair(NamedTuple):
 
 
 class Features(NamedTuple):
-    """What the scene's materials need; False features are neither compiled nor stored."""
+    """What the scene's materials need; what is False is neither compiled nor stored."""
 
     damping: bool
     sliding: bool
@@ -85,9 +85,11 @@ class ContactLaw:
         Numbers of one pair of materials.
     constants : (params, pair) -> Constants
         Computed once per pair of materials.
-    load : (touch, constants, history, dt, features) -> (ContactLoad, history)
-        ``features`` is a constant of the compiled loop: ``if features.sliding`` costs nothing.
-    energy : (touch, constants, history, features) -> float
+    choices : (params, features) -> choices
+        A NamedTuple of bools and ints that is a constant of the compiled loop: ``if choices.sliding`` costs nothing,
+        and what is not chosen is not compiled.
+    load : (touch, constants, history, dt, choices) -> (ContactLoad, history)
+    energy : (touch, constants, history, choices) -> float
         Elastic energy in J.
     stiffness : (constants, radius, overlap) -> float
         Normal tangent stiffness in N/m, for the time step.
@@ -100,6 +102,7 @@ class ContactLaw:
     Params: type[Params]
     Constants: type
     constants: Callable[[Any, MaterialPair], Any]
+    choices: Callable[[Any, Features], Any]
     load: Callable[..., Any]
     energy: Callable[..., float]
     stiffness: Callable[..., float]

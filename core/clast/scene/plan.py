@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from clast.config.choice import Chosen, WallChoice
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
-from clast.engine.kernels.layout import CONTACT_REST, LANES
+from clast.engine.kernels.layout import CONTACT_FREE, LANES
 from clast.engine.records import fields, numbers, width
-from clast.engine.state import Bonds, Floats, Numbers, Walls, World
+from clast.engine.state import Bonds, Floats, Numbers, Pairs, Walls, World
 from clast.engine.tables import (
     bond_table,
     crack_table,
@@ -64,7 +64,15 @@ def _contact_plan(scene: Scene) -> ContactPlan | None:
         sliding=any(pair.sliding_friction > 0.0 for pair in pairs),
         rolling=any(pair.rolling_friction > 0.0 for pair in pairs),
     )
-    return ContactPlan(config.law.part, features, config.bonded_pairs, len(scene.radius) > 1)
+    return ContactPlan(
+        law=config.law.part,
+        features=features,
+        choices=config.law.part.choices(config.law.params, features),
+        bonded_pairs=config.bonded_pairs,
+        between_particles=len(scene.radius) > 1,
+        one_material=len(set(scene.material.tolist())) == 1,
+        rests=bool(scene.relieved.any()),
+    )
 
 
 def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
@@ -121,7 +129,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
 def _scratch_slots(plan: Blueprint) -> int:
     if plan.contacts is None:
         return 32
-    return max(32, CONTACT_REST + width(plan.contacts.law.Constants) + width(plan.history) + 1)
+    return max(32, CONTACT_FREE + width(plan.contacts.law.Constants) + width(plan.history) + 1)
 
 
 def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, dt: float, skin: float) -> Numbers:
@@ -191,6 +199,14 @@ def _contact_table(scene: Scene, plan: Blueprint) -> Floats:
         table[i, j] = row
         table[j, i] = row
     return table
+
+
+def relieve(scene: Scene, pairs: Pairs) -> None:
+    """Let the overlaps that relieved particles start with count as undeformed."""
+    i, j = pairs.first.astype(np.int64), pairs.second.astype(np.int64)
+    distance = np.linalg.norm(scene.position[i] - scene.position[j], axis=1)
+    overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
+    pairs.rest[:] = np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0)
 
 
 def wall_shapes(scene: Scene) -> list[tuple[Any, Any]]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast import hookimpl
-from clast.maths.rotation import Quat, multiply, rotate, rotate_back
+from clast.maths.rotation import Matrix, matrix, multiply, rotate, rotate_back
 from clast.maths.vec3 import Vec, add, cross, dot, scale, sub
 from clast.parts.bond_kinematics import BondKinematics, BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, Strain
@@ -58,8 +58,8 @@ class Reference(NamedTuple):
 class Frame(NamedTuple):
     """What turns a load back into forces and moments: see :class:`Total`."""
 
-    q_m: Quat
-    w: Vec
+    d: Vec
+    R_m: Matrix
     n: Vec
     n0: Vec
     stretch: float
@@ -95,23 +95,25 @@ def measure(motion: BondMotion, ref: Reference, state: None, dt: float) -> tuple
     q_i, q_j = motion.q_i, motion.q_j
     p = multiply((q_i[0], -q_i[1], -q_i[2], -q_i[3]), q_j)
     s = 1.0 if p[0] >= 0.0 else -1.0
-    # t = tan(θ/4) along the axis of the relative rotation; θ = 4 g t with g = atan|t|/|t|
-    t = scale(s / (1.0 + s * p[0]), (p[1], p[2], p[3]))
-    z = dot(t, t)
-    h = -(1.0 + arctangent_rest(z) * (1.0 + z))
-    f = 1.0 - h * z
-    theta = scale(4.0 * f / (1.0 + z), t)
-
-    k = 1.0 / sqrt(2.0 + 2.0 * s * p[0])
+    a = 1.0 + s * p[0]  # 2 cos²(θ/4)
+    k = 1.0 / sqrt(a + a)
     q_m = (
         k * (q_i[0] + s * q_j[0]),
         k * (q_i[1] + s * q_j[1]),
         k * (q_i[2] + s * q_j[2]),
         k * (q_i[3] + s * q_j[3]),
     )
-    w = rotate_back(q_m, motion.d)
+    # t = tan(θ/4) along the axis of the relative rotation; θ = 4 g t with g = atan|t|/|t|
+    t = scale(s * (2.0 * k * k), (p[1], p[2], p[3]))
+    z = dot(t, t)
+    h = -(1.0 + arctangent_rest(z) * (1.0 + z))
+    f = 1.0 - h * z
+    theta = scale(2.0 * a * f, t)
+
+    R_m = matrix(q_m)
     length = sqrt(dot(motion.d, motion.d))
-    n = scale(1.0 / length, w)
+    per_length = 1.0 / length
+    n = rotate_back(R_m, scale(per_length, motion.d))
     twist = dot(theta, ref.n0)
     strain = Strain(
         axial=length - ref.L0,
@@ -119,24 +121,21 @@ def measure(motion: BondMotion, ref: Reference, state: None, dt: float) -> tuple
         twist=twist,
         bending=sub(theta, scale(twist, ref.n0)),
     )
-    return strain, Frame(q_m, w, n, ref.n0, ref.L0 / length, t, f, h), None
+    return strain, Frame(motion.d, R_m, n, ref.n0, ref.L0 * per_length, t, f, h), None
 
 
 def end_loads(load: BondLoad, frame: Frame) -> EndLoads:
     """Return force and moments on the ends: minus the gradient of the bond's energy."""
-    n, t, f = frame.n, frame.t, frame.f
+    n, t = frame.n, frame.t
     T = load.shear
     S = add(scale(load.normal - frame.stretch * dot(T, n), n), scale(frame.stretch, T))
     M = add(scale(load.torsion, frame.n0), load.bending)
-    c = cross(S, frame.w)
-    # P M = f M + h (t·M) t, and ½ τ c x θ = ½ c x t because τ θ = t
-    v = sub(add(scale(f, M), scale(frame.h * dot(t, M), t)), scale(0.5, cross(c, t)))
-    half = scale(0.5, c)
-    return EndLoads(
-        force=rotate(frame.q_m, scale(-1.0, S)),
-        moment_i=rotate(frame.q_m, sub(v, half)),
-        moment_j=rotate(frame.q_m, sub(scale(-1.0, v), half)),
-    )
+    pull = rotate(frame.R_m, S)
+    lever = scale(0.5, cross(frame.d, pull))
+    # P M = f M + h (t·M) t, and c x ½ τ θ = c x ½ t because τ θ = t; c = −2 lever, seen in space
+    v = rotate(frame.R_m, add(scale(frame.f, M), scale(frame.h * dot(t, M), t)))
+    v = add(v, cross(lever, rotate(frame.R_m, t)))
+    return EndLoads(force=scale(-1.0, pull), moment_i=add(lever, v), moment_j=sub(lever, v))
 
 
 @hookimpl

@@ -9,7 +9,7 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import Number, Stress
 from clast.maths.counter_random import uniform
-from clast.maths.vec3 import Vec, add, norm, scale, sub
+from clast.maths.vec3 import Vec, add, dot, norm, scale, sub
 from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Numbers, RandomKey, Stiffness, Strain
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
@@ -135,10 +135,17 @@ def load(strain: Strain, c: Constants, state: State) -> BondLoad:
     )
 
 
+def overloads(strain: Strain, c: Constants, state: State) -> tuple[float, float]:
+    """Return the squares of normal and shear stress, each as a share of the yield stress."""
+    normal = normal_stress(strain, c, state) * c.per_normal_yield
+    shear = scale(c.per_shear_yield, shear_stress(strain, c, state))
+    return normal * normal, dot(shear, shear)
+
+
 def overload(strain: Strain, c: Constants, state: State) -> float:
-    """Return the larger stress as a share of the yield stress: above 1 a drop is due."""
-    normal = abs(normal_stress(strain, c, state)) * c.per_normal_yield
-    return max(normal, norm(shear_stress(strain, c, state)) * c.per_shear_yield)
+    """Return the larger of the two squares: above 1 a drop is due."""
+    normal, shear = overloads(strain, c, state)
+    return max(normal, shear)
 
 
 def remaining_share(c: Constants, key: RandomKey, component: int, drops: float) -> float:
@@ -149,16 +156,17 @@ def remaining_share(c: Constants, key: RandomKey, component: int, drops: float) 
 
 
 def on_event(strain: Strain, c: Constants, state: State, key: RandomKey) -> State:
-    """Eq. 12: drop the normal stress, or else the shear stress, to its remaining share."""
-    sigma = normal_stress(strain, c, state)
-    tau = shear_stress(strain, c, state)
-    if abs(sigma) > c.yield_stress:
+    """Eq. 12: drop the more loaded of normal and shear stress to its remaining share."""
+    normal, shear = overloads(strain, c, state)
+    if normal >= shear:
+        sigma = normal_stress(strain, c, state)
         share = remaining_share(c, key, NORMAL, state.normal_drops)
         drop = (1.0 - share) * (abs(sigma) if c.from_trial > 0.0 else c.yield_stress)
         opening = (drop if sigma > 0.0 else -drop) / c.E
         return State(
             state.axial_plastic + opening, state.shear_plastic, state.normal_drops + 1.0, state.shear_drops
         )
+    tau = shear_stress(strain, c, state)
     size = norm(tau)
     share = remaining_share(c, key, SHEAR, state.shear_drops)
     drop = (1.0 - share) * (size if c.from_trial > 0.0 else c.yield_stress)

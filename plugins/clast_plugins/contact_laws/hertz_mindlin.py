@@ -13,7 +13,7 @@ from clast.parts.contact_law import ContactLaw, ContactLoad, Features, MaterialP
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 
-ELASTIC, TOTAL, MUSEN = 0.0, 1.0, 2.0
+ELASTIC, TOTAL, MUSEN = 0, 1, 2
 LIMITS = {"elastic": ELASTIC, "total": TOTAL, "musen": MUSEN}
 
 
@@ -63,16 +63,25 @@ class HertzMindlin(Params):
 
 
 class Constants(NamedTuple):
-    """Numbers of one pair of materials and the options, all floats."""
+    """Numbers of one pair of materials; ``c_n`` and ``c_t`` are c √(2 E*) and c √(8 G*)."""
 
     E: float
     G: float
-    damping: float
+    c_n: float
+    c_t: float
     mu: float
     mu_r: float
-    limit: float
-    cutoff: float
-    own_spin: float
+
+
+class Choices(NamedTuple):
+    """What the scene needs of the law, known when the loop is compiled."""
+
+    damping: bool
+    sliding: bool
+    rolling: bool
+    limit: int
+    tension_cutoff: bool
+    own_spin: bool
 
 
 class History(NamedTuple):
@@ -98,93 +107,121 @@ def constants(params: HertzMindlin, pair: MaterialPair) -> Constants:
     nu_i, nu_j = pair.poisson_ratio_i, pair.poisson_ratio_j
     G_i = pair.young_modulus_i / (2.0 * (1.0 + nu_i))
     G_j = pair.young_modulus_j / (2.0 * (1.0 + nu_j))
+    E = 1.0 / ((1.0 - nu_i**2) / pair.young_modulus_i + (1.0 - nu_j**2) / pair.young_modulus_j)
+    G = 1.0 / ((2.0 - nu_i) / G_i + (2.0 - nu_j) / G_j)
+    c = 2.0 * sqrt(5.0 / 6.0) * damping_ratio(pair.restitution)
     return Constants(
-        E=1.0 / ((1.0 - nu_i**2) / pair.young_modulus_i + (1.0 - nu_j**2) / pair.young_modulus_j),
-        G=1.0 / ((2.0 - nu_i) / G_i + (2.0 - nu_j) / G_j),
-        damping=2.0 * sqrt(5.0 / 6.0) * damping_ratio(pair.restitution),
+        E=E,
+        G=G,
+        c_n=c * sqrt(2.0 * E),
+        c_t=c * sqrt(8.0 * G),
         mu=pair.sliding_friction,
         mu_r=pair.rolling_friction,
-        limit=LIMITS[params.coulomb_limit],
-        cutoff=1.0 if params.tension_cutoff else 0.0,
-        own_spin=1.0 if params.rolling == "own_spin" else 0.0,
     )
+
+
+def choices(params: HertzMindlin, features: Features) -> Choices:
+    """Return what must be compiled."""
+    return Choices(
+        *features,
+        limit=LIMITS[params.coulomb_limit],
+        tension_cutoff=params.tension_cutoff,
+        own_spin=params.rolling == "own_spin",
+    )
+
+
+def contact_radius(touch: Touch) -> float:
+    """Return a = √(R* δ) in m."""
+    return sqrt(touch.radius * touch.overlap)
+
+
+def damping_root(touch: Touch) -> float:
+    """Return √(a m*), which the damping of both directions has in common."""
+    return sqrt(contact_radius(touch) / touch.inverse_mass)
 
 
 def elastic_force(touch: Touch, c: Constants) -> float:
     """Return Hertz's repulsion in N."""
-    return 4.0 / 3.0 * c.E * sqrt(touch.radius * touch.overlap) * touch.overlap
+    return 4.0 / 3.0 * c.E * contact_radius(touch) * touch.overlap
 
 
-def normal_force(touch: Touch, c: Constants, features: Features) -> float:
+def normal_force(touch: Touch, c: Constants, chosen: Choices) -> float:
     """Return the repulsion with damping in N."""
     force = elastic_force(touch, c)
-    if features.damping:
-        k_n = 2.0 * c.E * sqrt(touch.radius * touch.overlap)
-        force = force - c.damping * sqrt(k_n / touch.inverse_mass) * dot(touch.velocity, touch.normal)
-        force = 0.0 if c.cutoff > 0.0 and force < 0.0 else force
+    if chosen.damping:
+        force = force - c.c_n * damping_root(touch) * dot(touch.velocity, touch.normal)
+    if chosen.tension_cutoff:
+        force = max(force, 0.0)
     return force
 
 
-def limiting_force(touch: Touch, c: Constants, F_n: float) -> float:
+def limiting_force(touch: Touch, c: Constants, F_n: float, chosen: Choices) -> float:
     """Return the normal force that limits friction in N."""
-    if c.limit == ELASTIC:
+    if chosen.limit == ELASTIC:
         return elastic_force(touch, c)
-    return abs(F_n) if c.limit == MUSEN else max(F_n, 0.0)
+    if chosen.limit == MUSEN:
+        return abs(F_n)
+    return max(F_n, 0.0)
 
 
-def sliding(touch: Touch, c: Constants, xi_old: Vec, F_lim: float, dt: float) -> tuple[Vec, Vec]:
+def sliding(
+    touch: Touch, c: Constants, xi_old: Vec, F_lim: float, dt: float, chosen: Choices
+) -> tuple[Vec, Vec]:
     """Return the tangential force on i in N and the tangential displacement in m, Coulomb's limit kept."""
     v_t = across(touch.velocity, touch.normal)
-    k_t = 8.0 * c.G * sqrt(touch.radius * touch.overlap)
-    c_t = c.damping * sqrt(k_t / touch.inverse_mass)
+    k_t = 8.0 * c.G * contact_radius(touch)
     xi = add(xi_old, scale(dt, v_t))
     spring = scale(k_t, xi)
-    damped = add(spring, scale(c_t, v_t))
-    judged = spring if c.limit == MUSEN else damped
-    size, limit = norm(judged), c.mu * F_lim
-    slides = size > limit
-    share = limit / size if slides else 1.0
-    force = scale(share, judged) if slides else damped
+    dashpot = scale(c.c_t * damping_root(touch), v_t) if chosen.damping else ZERO
+    judged = spring if chosen.limit == MUSEN else add(spring, dashpot)
+    size2, limit = dot(judged, judged), c.mu * F_lim
+    slides = size2 > limit * limit
+    limited = scale(limit / sqrt(size2) if slides else 1.0, judged)
+    if chosen.limit == MUSEN:
+        return (limited, scale(1.0 / k_t, limited)) if slides else (add(spring, dashpot), xi)
     # while sliding, the spring keeps what the limit leaves after the dashpot
-    kept = sub(force, scale(c_t, v_t)) if c.limit != MUSEN else force
-    return force, (scale(1.0 / k_t, kept) if slides else xi)
+    return limited, (scale(1.0 / k_t, sub(limited, dashpot)) if slides else xi)
 
 
-def rolling(touch: Touch, c: Constants, F_lim: float, dt: float) -> tuple[Vec, Vec]:
+def rolling(touch: Touch, c: Constants, F_lim: float, dt: float, chosen: Choices) -> tuple[Vec, Vec]:
     """Return the rolling torques on i and j in N m."""
+    if chosen.own_spin:
+        own_i = against(touch.spin_i, c.mu_r * F_lim * touch.radius_i)
+        return own_i, against(touch.spin_j, c.mu_r * F_lim * touch.radius_j)
     relative = across(sub(touch.spin_j, touch.spin_i), touch.normal)
     rate = norm(relative)
     # no more than what stops the rolling within this step
-    size = min(c.mu_r * F_lim * touch.radius, rate / (touch.inverse_inertia * dt)) / rate if rate > 0.0 else 0.0
-    shared = scale(size, relative)
-    if c.own_spin == 0.0:
-        return shared, scale(-1.0, shared)
-    w_i, w_j = norm(touch.spin_i), norm(touch.spin_j)
-    own_i = -c.mu_r * F_lim * touch.radius_i / w_i if w_i > 0.0 else 0.0
-    own_j = -c.mu_r * F_lim * touch.radius_j / w_j if w_j > 0.0 else 0.0
-    return scale(own_i, touch.spin_i), scale(own_j, touch.spin_j)
+    drag = min(c.mu_r * F_lim * touch.radius / rate, 1.0 / (touch.inverse_inertia * dt)) if rate > 0.0 else 0.0
+    torque = scale(drag, relative)
+    return torque, scale(-1.0, torque)
+
+
+def against(spin: Vec, size: float) -> Vec:
+    """Return a torque of a given size against a spin."""
+    rate = norm(spin)
+    return scale(-size / rate if rate > 0.0 else 0.0, spin)
 
 
 def load(
-    touch: Touch, c: Constants, history: History, dt: float, features: Features
+    touch: Touch, c: Constants, history: History, dt: float, chosen: Choices
 ) -> tuple[ContactLoad, History]:
     """Return what the contact does to body j, and its new history."""
-    F_n = normal_force(touch, c, features)
-    F_lim = limiting_force(touch, c, F_n)
+    F_n = normal_force(touch, c, chosen)
+    F_lim = limiting_force(touch, c, F_n, chosen)
     F_t, xi = ZERO, history.xi
-    if features.sliding:
-        F_t, xi = sliding(touch, c, history.xi, F_lim, dt)
+    if chosen.sliding:
+        F_t, xi = sliding(touch, c, history.xi, F_lim, dt, chosen)
     torque_i, torque_j = ZERO, ZERO
-    if features.rolling:
-        torque_i, torque_j = rolling(touch, c, F_lim, dt)
+    if chosen.rolling:
+        torque_i, torque_j = rolling(touch, c, F_lim, dt, chosen)
     return ContactLoad(sub(scale(F_n, touch.normal), F_t), torque_i, torque_j), History(xi)
 
 
-def energy(touch: Touch, c: Constants, history: History, features: Features) -> float:
+def energy(touch: Touch, c: Constants, history: History, chosen: Choices) -> float:
     """Return 2/5 F δ + ½ k_t ξ² in J."""
     stored = 0.4 * elastic_force(touch, c) * touch.overlap
-    if features.sliding:
-        stored = stored + 4.0 * c.G * sqrt(touch.radius * touch.overlap) * dot(history.xi, history.xi)
+    if chosen.sliding:
+        stored = stored + 4.0 * c.G * contact_radius(touch) * dot(history.xi, history.xi)
     return stored
 
 
@@ -203,6 +240,7 @@ def clast_register(registry: Registry) -> None:
             Params=HertzMindlin,
             Constants=Constants,
             constants=constants,
+            choices=choices,
             load=load,
             energy=energy,
             stiffness=stiffness,

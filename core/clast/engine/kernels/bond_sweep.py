@@ -33,6 +33,7 @@ from .layout import (
 from .slots import (
     BOND_DAMPING,
     BOND_EVENTS,
+    BOND_FLOW,
     BOND_ORIENTATION,
     BOND_VELOCITY,
     FADE,
@@ -136,7 +137,8 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     if BOND_DAMPING:
         ends = damped(ends, motion, data, lane)
     write_kinematic_state(data, lane, kinematic_state)
-    write_bond_state(data, lane, state)
+    if BOND_FLOW:
+        write_bond_state(data, lane, state)
     data[INDEX * LANES + lane] = bond_failure(strain, load, constants, state)
     if BOND_EVENTS:
         scratch[OVERLOAD * LANES + lane] = bond_overload(strain, constants, state)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
@@ -12,18 +13,20 @@ from clast.parts.contact_law import Touch
 from .bond_sweep import put, vector
 from .layout import (
     CONTACT_F,
+    CONTACT_FREE,
     CONTACT_MI,
     CONTACT_MJ,
-    CONTACT_REST,
     DV,
-    IMI,
-    IMJ,
+    II,
+    IM,
     INTACT,
+    INVERSE_INERTIA,
     INVERSE_MASS,
     LANES,
     MATERIAL,
     NORMAL,
     RADIUS,
+    REST,
     RI,
     RJ,
     WI,
@@ -37,41 +40,48 @@ from .layout import (
 )
 from .slots import (
     BONDED_PAIRS_TOUCH,
+    CHOICES,
     CONTACT_CONSTANTS,
-    FEATURES,
     HISTORY,
+    ONE_MATERIAL,
+    RESTS,
     SPIN,
     VELOCITY_FORCES,
     carry_history,
     contact_load,
     read_contact_constants,
     read_history,
+    row_constants,
     write_history,
 )
 
-HISTORY_BASE = CONTACT_REST + CONTACT_CONSTANTS
+HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
 
 
 @inlined
 def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: Floats, lane: int) -> None:
     """Copy what the law needs of pair k into a lane."""
-    pose, seen = particles.pose, particles.seen
+    pose, twist, seen = particles.pose, particles.twist, particles.seen
     i, j = pairs.first[k], pairs.second[k]
     for c in range(3):
         scratch[(D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
     scratch[RI * LANES + lane] = pose[i, RADIUS]
     scratch[RJ * LANES + lane] = pose[j, RADIUS]
-    scratch[IMI * LANES + lane] = seen[i, INVERSE_MASS]
-    scratch[IMJ * LANES + lane] = seen[j, INVERSE_MASS]
+    if RESTS:
+        scratch[REST * LANES + lane] = pairs.rest[k]
     if VELOCITY_FORCES:
+        scratch[IM * LANES + lane] = twist[i, INVERSE_MASS] + twist[j, INVERSE_MASS]
         for c in range(3):
             scratch[(DV + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
-            if SPIN:
-                scratch[(WI + c) * LANES + lane] = seen[i, W + c]
-                scratch[(WJ + c) * LANES + lane] = seen[j, W + c]
-    row = numbers.contact_table[int(seen[i, MATERIAL]), int(seen[j, MATERIAL])]
-    for c in range(CONTACT_CONSTANTS):
-        scratch[(CONTACT_REST + c) * LANES + lane] = row[c]
+    if SPIN:
+        scratch[II * LANES + lane] = twist[i, INVERSE_INERTIA] + twist[j, INVERSE_INERTIA]
+        for c in range(3):
+            scratch[(WI + c) * LANES + lane] = seen[i, W + c]
+            scratch[(WJ + c) * LANES + lane] = seen[j, W + c]
+    if not ONE_MATERIAL:
+        row = numbers.contact_table[int(seen[i, MATERIAL]), int(seen[j, MATERIAL])]
+        for c in range(CONTACT_CONSTANTS):
+            scratch[(CONTACT_FREE + c) * LANES + lane] = row[c]
     if HISTORY > 0:
         known = pairs.touching[k] != 0
         for c in range(3):
@@ -81,8 +91,8 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
 
 
 @inlined
-def contact_lane(scratch: Floats, lane: int, dt: float, at_contact_point: float) -> None:
-    """Compute the contact of one lane: force on j, moments on both, new history."""
+def read_touch(scratch: Floats, lane: int, at_contact_point: float) -> tuple[Touch, float, float]:
+    """Return the contact of a lane, and the lever arms of its force about both centres."""
     d = vector(scratch, D, lane)
     r_i, r_j = scratch[RI * LANES + lane], scratch[RJ * LANES + lane]
     distance = sqrt(dot(d, d))
@@ -91,31 +101,31 @@ def contact_lane(scratch: Floats, lane: int, dt: float, at_contact_point: float)
     share = 1.0 / (r_i + r_j)
     lever_i = r_i - at_contact_point * overlap * r_i * share
     lever_j = r_j - at_contact_point * overlap * r_j * share
-    velocity, w_i, w_j = ZERO, ZERO, ZERO
+    if RESTS:
+        overlap = overlap - scratch[REST * LANES + lane]
+    velocity, w_i, w_j, per_mass, per_inertia = ZERO, ZERO, ZERO, 1.0, 1.0
     if VELOCITY_FORCES:
         velocity = vector(scratch, DV, lane)
-        if SPIN:
-            w_i, w_j = vector(scratch, WI, lane), vector(scratch, WJ, lane)
-            velocity = sub(velocity, cross(add(scale(lever_i, w_i), scale(lever_j, w_j)), n))
-    im_i, im_j = scratch[IMI * LANES + lane], scratch[IMJ * LANES + lane]
-    touch = Touch(
-        overlap=overlap,
-        normal=n,
-        velocity=velocity,
-        spin_i=w_i,
-        spin_j=w_j,
-        radius=r_i * r_j * share,
-        radius_i=r_i,
-        radius_j=r_j,
-        inverse_mass=im_i + im_j,
-        inverse_inertia=2.5 * (im_i / (r_i * r_i) + im_j / (r_j * r_j)),
-    )
+        per_mass = scratch[IM * LANES + lane]
+    if SPIN:
+        w_i, w_j = vector(scratch, WI, lane), vector(scratch, WJ, lane)
+        velocity = sub(velocity, cross(add(scale(lever_i, w_i), scale(lever_j, w_j)), n))
+        per_inertia = scratch[II * LANES + lane]
+    touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia)
+    return touch, lever_i, lever_j
+
+
+@inlined
+def contact_lane(scratch: Floats, lane: int, shared: Any, dt: float, at_contact_point: float) -> None:
+    """Compute the contact of one lane: force on j, moments on both, new history."""
+    touch, lever_i, lever_j = read_touch(scratch, lane, at_contact_point)
+    n = touch.normal
+    constants = shared if ONE_MATERIAL else read_contact_constants(scratch, CONTACT_FREE, lane)
     history = read_history(scratch, HISTORY_BASE, lane)
     if HISTORY > 0:
-        spin = 0.5 * (dot(w_i, n) + dot(w_j, n)) * dt
+        spin = 0.5 * (dot(touch.spin_i, n) + dot(touch.spin_j, n)) * dt
         history = carry_history(history, vector(scratch, NORMAL, lane), n, spin)
-    constants = read_contact_constants(scratch, CONTACT_REST, lane)
-    load, history = contact_load(touch, constants, history, dt, FEATURES)
+    load, history = contact_load(touch, constants, history, dt, CHOICES)
     put(scratch, CONTACT_F, lane, load.force)
     if SPIN:
         arm = cross(n, load.force)
@@ -147,13 +157,16 @@ def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: i
 
 
 @inlined
-def separated(particles: Particles, i: int, j: int) -> bool:
-    """Tell whether two particles do not touch."""
+def separated(particles: Particles, pairs: Pairs, k: int) -> bool:
+    """Tell whether the particles of pair k do not touch."""
     pose = particles.pose
+    i, j = pairs.first[k], pairs.second[k]
     dx = pose[j, X] - pose[i, X]
     dy = pose[j, X + 1] - pose[i, X + 1]
     dz = pose[j, X + 2] - pose[i, X + 2]
     s = pose[i, RADIUS] + pose[j, RADIUS]
+    if RESTS:
+        s -= pairs.rest[k]
     return dx * dx + dy * dy + dz * dz >= s * s
 
 
@@ -171,8 +184,10 @@ def apply(
     """Gather, compute and scatter one block of touching pairs."""
     for lane in range(count):
         gather(particles, pairs, active[lane], numbers, scratch, lane)
+    material = int(particles.seen[0, MATERIAL])
+    shared = row_constants(numbers.contact_table[material, material])
     for lane in range(count):
-        contact_lane(scratch, lane, dt, numbers.lever)
+        contact_lane(scratch, lane, shared, dt, numbers.lever)
     for lane in range(count):
         scatter(particles, pairs, active[lane], scratch, lane)
 
@@ -184,7 +199,7 @@ def sweep_contacts(
     """Add the loads of all touching pairs to the particles, in the order of the pairs."""
     count = 0
     for k in range(len(pairs.first)):
-        if separated(particles, pairs.first[k], pairs.second[k]):
+        if separated(particles, pairs, k):
             if HISTORY > 0 and pairs.touching[k] != 0:
                 pairs.touching[k] = 0
             continue

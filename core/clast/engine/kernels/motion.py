@@ -117,26 +117,19 @@ def move_after_forces(particles: Particles, stage: Stage, numbers: Numbers, time
 
 
 @routine
-def move_walls(walls: Walls, time: float, drift_time: float) -> None:
-    """Set the walls' velocities and move them over some time; forces on them start anew."""
+def move_walls(walls: Walls, time: float, drift_time: float, reach2: float) -> bool:
+    """Move the walls over some time; tell whether one is too far from where its neighbours were searched."""
+    stale = False
     for w in range(len(walls.shape_kind)):
         v = wall_velocity(walls.motion_kind[w], walls.course[w], time)
+        away2 = 0.0
         for c in range(3):
             walls.velocity[w, c] = v[c]
             walls.displacement[w, c] += drift_time * v[c]
-
-
-@routine
-def walls_strayed(walls: Walls, reach2: float) -> bool:
-    """Tell whether a wall is too far from where its neighbours were searched."""
-    for w in range(len(walls.shape_kind)):
-        away2 = 0.0
-        for c in range(3):
             away = walls.displacement[w, c] - walls.reference[w, c]
             away2 += away * away
-        if not away2 <= reach2:
-            return True
-    return False
+        stale = stale or not away2 <= reach2
+    return stale
 
 
 @routine

@@ -5,23 +5,24 @@ from __future__ import annotations
 from typing import Any
 
 from clast.engine.compiler import inlined
-from clast.parts.contact_law import Features
 from clast.parts.integrator import Stage
 
 STAGES = (Stage(0.0, 0.5, 0.0, 1.0, 0.5),)
 SPANS = (1.0,)  # time since the last force evaluation, as a fraction of the step
-FEATURES = Features(damping=False, sliding=False, rolling=False)
+CHOICES = None
 
 BONDS = False
 BOND_ORIENTATION = False
 BOND_VELOCITY = False
 BOND_DAMPING = False
 BOND_EVENTS = False
+BOND_FLOW = False
 FADE = False
 CONTACTS = False
 BONDED_PAIRS_TOUCH = True
+ONE_MATERIAL = True
+RESTS = False
 WALLS = False
-MOVING_WALLS = False
 BODY_FORCES = False
 ORIENTATION = False
 SPIN = False

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from clast.engine.compiler import compiled, routine
-from clast.engine.state import Indices, World
+from clast.engine.compiler import compiled, inlined
+from clast.engine.state import Integers, World
 from clast.parts.integrator import Stage
 
 from .bond_sweep import sweep_bonds
@@ -17,34 +17,44 @@ from .motion import (
     move_before_forces,
     move_walls,
     sum_wall_forces,
-    walls_strayed,
 )
 from .slots import BONDS, CONTACTS, SPANS, STAGES, WALLS
 from .wall_sweep import sweep_walls
 
 
-@routine
-def compute_forces(world: World, active: Indices, dt: float) -> None:
-    """Add the loads of bonds, contacts and walls at the present positions."""
-    particles, numbers = world.particles, world.numbers
-    if BONDS:
-        sweep_bonds(world.bonds, particles, world.cracks, numbers, world.scratch, dt, world.clock[STEP])
-    if CONTACTS:
-        sweep_contacts(world.pairs, world.bonds, particles, numbers, world.scratch, active, dt)
-    if WALLS:
-        clear_wall_forces(world.walls)
-        sweep_walls(world.walls, world.wall_pairs, particles, numbers, dt)
+@inlined
+def stage_now(clock: Integers, start_kick: float) -> Stage:
+    """Return the stage that is due; before the first step, one that moves nothing and only computes forces.
+
+    Predictors and first kicks need the accelerations at the start.
+    """
+    if clock[PRIMED] == 0:
+        return Stage(0.0, 0.0, 0.0, start_kick, 0.0)
+    return STAGES[0 if len(STAGES) == 1 else clock[STAGE]]
 
 
-@routine
-def prime(world: World, active: Indices) -> None:
-    """Compute the accelerations at the start, which predictors and first kicks need; nothing moves."""
-    particles, numbers = world.particles, world.numbers
-    move_before_forces(particles, Stage(0.0, 0.0, 0.0, 0.0, 0.0), numbers)
-    if WALLS:
-        move_walls(world.walls, 0.0, 0.0)
-    compute_forces(world, active, 2.0 * numbers.start_kick * numbers.dt)
-    move_after_forces(particles, Stage(0.0, 0.0, 0.0, numbers.start_kick, 0.0), numbers, 0.0)
+@inlined
+def time_since_forces(clock: Integers, start_kick: float) -> float:
+    """Return the time since the last force evaluation, as a fraction of the step."""
+    if clock[PRIMED] == 0:
+        return 2.0 * start_kick
+    return SPANS[clock[STAGE]]
+
+
+@inlined
+def count_stage(world: World) -> None:
+    """Note that a stage is over, and with the last one the step."""
+    clock = world.clock
+    clock[MOVED] = 0
+    if clock[PRIMED] == 0:
+        clock[PRIMED] = 1
+        return
+    clock[STAGE] += 1
+    if clock[STAGE] == len(STAGES):
+        clock[STAGE] = 0
+        clock[STEP] += 1
+        if WALLS:
+            sum_wall_forces(world.walls)
 
 
 @compiled
@@ -55,29 +65,26 @@ def advance(world: World, steps: int) -> int:
     """
     particles, numbers, clock = world.particles, world.numbers, world.clock
     active = np.empty(LANES, np.uint32)
-    if clock[PRIMED] == 0:
-        prime(world, active)
-        clock[PRIMED] = 1
-    while clock[STEP] < steps:
-        while clock[STAGE] < len(STAGES):
-            stage = STAGES[0 if len(STAGES) == 1 else clock[STAGE]]
-            time = clock[STEP] * numbers.dt
-            if clock[MOVED] == 0:
-                stale = move_before_forces(particles, stage, numbers)
-                if WALLS:
-                    move_walls(world.walls, time, stage.drift_before * numbers.dt)
-                    stale = walls_strayed(world.walls, numbers.reach2) or stale
-                clock[MOVED] = 1
-                if stale:
-                    return STALE
-            compute_forces(world, active, SPANS[clock[STAGE]] * numbers.dt)
-            move_after_forces(particles, stage, numbers, time)
+    while clock[STEP] < steps or clock[PRIMED] == 0:
+        stage = stage_now(clock, numbers.start_kick)
+        time = clock[STEP] * numbers.dt
+        if clock[MOVED] == 0:
+            stale = move_before_forces(particles, stage, numbers)
             if WALLS:
-                move_walls(world.walls, time, stage.drift_after * numbers.dt)
-            clock[MOVED] = 0
-            clock[STAGE] += 1
+                stale = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.reach2) or stale
+                clear_wall_forces(world.walls)
+            clock[MOVED] = 1
+            if stale:
+                return STALE
+        span = time_since_forces(clock, numbers.start_kick) * numbers.dt
+        if BONDS:
+            sweep_bonds(world.bonds, particles, world.cracks, numbers, world.scratch, span, clock[STEP])
+        if CONTACTS:
+            sweep_contacts(world.pairs, world.bonds, particles, numbers, world.scratch, active, span)
         if WALLS:
-            sum_wall_forces(world.walls)
-        clock[STAGE] = 0
-        clock[STEP] += 1
+            sweep_walls(world.walls, world.wall_pairs, particles, numbers, span)
+        move_after_forces(particles, stage, numbers, time)
+        if WALLS:
+            move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.reach2)
+        count_stage(world)
     return DONE

@@ -7,9 +7,9 @@ from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
 from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
 from clast.parts.contact_law import Touch
 
-from .layout import INVERSE_MASS, MATERIAL, RADIUS, F, M, V, W, X
+from .layout import INVERSE_INERTIA, INVERSE_MASS, MATERIAL, RADIUS, F, M, V, W, X
 from .slots import (
-    FEATURES,
+    CHOICES,
     HISTORY,
     SPIN,
     VELOCITY_FORCES,
@@ -32,15 +32,14 @@ def row(table: Floats, k: int, column: int) -> Vec:
 @inlined
 def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec) -> Touch:
     """Return the contact of particle k (i) with a wall (j)."""
-    seen = particles.seen
+    seen, twist = particles.seen, particles.twist
     radius = particles.pose[k, RADIUS]
     velocity, spin = ZERO, ZERO
     if VELOCITY_FORCES:
         velocity = sub(wall_velocity, row(seen, k, V))
-        if SPIN:
-            spin = row(seen, k, W)
-            velocity = sub(velocity, cross(scale(lever, spin), n))
-    per_mass = seen[k, INVERSE_MASS]
+    if SPIN:
+        spin = row(seen, k, W)
+        velocity = sub(velocity, cross(scale(lever, spin), n))
     return Touch(
         overlap=radius - distance,
         normal=n,
@@ -50,8 +49,8 @@ def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: flo
         radius=radius,
         radius_i=radius,
         radius_j=0.0,
-        inverse_mass=per_mass,
-        inverse_inertia=2.5 * per_mass / (radius * radius),
+        inverse_mass=twist[k, INVERSE_MASS],
+        inverse_inertia=twist[k, INVERSE_INERTIA],
     )
 
 
@@ -91,7 +90,7 @@ def sweep_walls(
             spin = 0.5 * dot(touch.spin_i, n) * dt
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
         constants = row_constants(numbers.contact_table[int(particles.seen[k, MATERIAL]), walls.material[w]])
-        load, history = contact_load(touch, constants, history, dt, FEATURES)
+        load, history = contact_load(touch, constants, history, dt, CHOICES)
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if HISTORY > 0:
             for c in range(3):

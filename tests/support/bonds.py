@@ -1,0 +1,122 @@
+"""One bond on its own: models with sensible numbers, and the order in which the engine asks a law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from hypothesis import strategies as st
+
+from clast.engine.records import fields
+from clast.maths.counter_random import uniform
+from clast.maths.vec3 import Vec
+from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, RandomKey, Strain
+from clast.plugins.discovery import discover
+from tests.support.strategies import numbers, unit, vectors
+
+L0, R = 0.26e-3, 0.125e-3
+GEOMETRY = BondGeometry(L0, R, math.pi * R**2, math.pi * R**4 / 4.0)  # type: ignore[arg-type]
+E, NU = 564.26e6, 0.2
+G = E / (2.0 * (1.0 + NU))
+STRENGTH, SHEAR_STRENGTH, YIELD, BREAKAGE = 4.05e6, 3.0e6, 2.0e6, 0.0075
+KEY = RandomKey(1, 17)
+
+_BEAM = {"young_modulus": E, "poisson_ratio": NU}
+_PLASTIC = _BEAM | {"yield_stress": YIELD, "breakage_strain": BREAKAGE}
+WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
+    "elastic": ("elastic", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
+    "elastic, absolute": ("elastic", _BEAM | {"normal_strength": STRENGTH, "normal_term": "absolute"}),
+    "elastic_plastic": ("elastic_plastic", _PLASTIC),
+    "elastic_plastic, K": ("elastic_plastic", _PLASTIC | {"compressive_break": 2.0}),
+    "micro_cracking": ("micro_cracking", _PLASTIC),
+    "micro_cracking, fixed": ("micro_cracking", _PLASTIC | {"fixed_drop": 0.4, "compressive_break": 2.0}),
+    "micro_cracking, trial": ("micro_cracking", _PLASTIC | {"drop_from": "trial", "weakening_factor": 0.5}),
+}
+
+
+class Law(NamedTuple):
+    """A bond model, the constants of one bond, and the state it starts in."""
+
+    model: BondModel
+    constants: Any
+    start: Any
+
+
+def law(name: str, **options: Any) -> Law:
+    """Return a law of ``WRITTEN`` with some options changed."""
+    part, written = WRITTEN[name]
+    model: BondModel = discover().get("bond_model", part).part
+    return Law(model, model.constants(model.Params(**written | options), GEOMETRY), zero(model.State))
+
+
+def zero(record: type | None) -> Any:
+    if record is None:
+        return None
+    return record(*(0.0 if field.size == 1 else (0.0,) * field.size for field in fields(record)))
+
+
+class Response(NamedTuple):
+    """What a bond does at one strain."""
+
+    state: Any
+    load: BondLoad
+    index: float
+
+
+def respond(law: Law, strain: Strain, state: Any, key: RandomKey = KEY) -> Response:
+    """Return the response to one strain in the order of the step loop: flow, events unless it fails, load."""
+    model, c, _ = law
+    state = model.flow(strain, c, state) if model.flow else state
+    load = model.load(strain, c, state)
+    if model.overload and model.failure(strain, load, c, state) < 1.0:
+        while model.overload(strain, c, state) > 1.0:
+            state = model.on_event(strain, c, state, key)
+        load = model.load(strain, c, state)
+    return Response(state, load, model.failure(strain, load, c, state))
+
+
+def follow(law: Law, path: Iterable[Strain], key: RandomKey = KEY) -> list[Response]:
+    """Return the responses along a path of strains."""
+    state, told = law.start, []
+    for strain in path:
+        told.append(respond(law, strain, state, key))
+        state = told[-1].state
+    return told
+
+
+def stretch(epsilon: float, gamma: float = 0.0, across: Vec = (0.0, 1.0, 0.0)) -> Strain:
+    """Return the strain measures of an axial and a shear strain."""
+    side = unit(across)
+    slip = (gamma * L0 * side[0], gamma * L0 * side[1], gamma * L0 * side[2])
+    return Strain(epsilon * L0, slip, 0.0, (0.0, 0.0, 0.0))
+
+
+def ramp(end: Strain, steps: int) -> list[Strain]:
+    """Return a straight path from nothing to a strain."""
+    return [scaled(end, k / steps) for k in range(1, steps + 1)]
+
+
+def scaled(strain: Strain, factor: float) -> Strain:
+    def times(a: Vec) -> Vec:
+        return (factor * a[0], factor * a[1], factor * a[2])
+
+    return Strain(factor * strain.axial, times(strain.shear), factor * strain.twist, times(strain.bending))
+
+
+def strains(size: float = 0.01) -> st.SearchStrategy[Strain]:
+    """Return strains whose axial, shear, twist and bending strain each reach about ``size``."""
+    return st.builds(Strain, numbers(-size * L0, size * L0), vectors(size * L0), numbers(-size, size), vectors(size))
+
+
+def normal_stress(load: BondLoad) -> float:
+    return load.normal / float(GEOMETRY.A)
+
+
+def shear_stress(load: BondLoad) -> float:
+    return math.hypot(*load.shear) / float(GEOMETRY.A)
+
+
+def shares(count: int, weakening: float = 1.0, key: RandomKey = KEY, component: int = 0) -> list[float]:
+    """Return what the first drops of a bond leave of the stress."""
+    return [weakening * uniform(key.seed, key.bond, component, k) for k in range(count)]
