@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -79,13 +80,16 @@ def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener:
     """
     listener = listener or Listener()
     prepare_folder(folder, resume)
-    listener.building()
-    simulation = Simulation(config)
-    if simulation.kernel.fresh:
-        listener.compiling()
-    session = _Session(simulation, folder, resume, listener)
-    elapsed, steps = session.advance()
-    return session.finish(elapsed, steps)
+    try:
+        listener.building()
+        simulation = Simulation(config)
+        if simulation.kernel.fresh:
+            listener.compiling()
+        session = _Session(simulation, folder, resume, listener)
+        elapsed, steps = session.advance()
+        return session.finish(elapsed, steps)
+    except KeyboardInterrupt:  # before or after the step loop, which handles signals itself
+        raise Interrupted(signal.SIGINT) from None
 
 
 def prepare_folder(folder: Path, resume: bool) -> None:
@@ -137,6 +141,7 @@ class _Session:
                 simulation.advance_to(first)  # compiles
                 if first == 0:
                     self._look_at_start()
+                    self.save()
                 listener.started(simulation)
                 begun = time.perf_counter()
                 simulation.run([self.samples, self.frames, watch])

@@ -90,13 +90,17 @@ def contact_constants(params, pair):
     return ContactConstants(params.stiffness, -ln_e / sqrt(pi**2 + ln_e**2))
 
 
-def contact_load(touch, c, history, dt, features):
+def choices(params, features):
+    return features
+
+
+def contact_load(touch, c, history, dt, choices):
     damping = 2 * c.damping_ratio * sqrt(c.k / touch.inverse_mass)
     force = c.k * touch.overlap - damping * dot(touch.velocity, touch.normal)
     return ContactLoad(scale(force, touch.normal), ZERO, ZERO), history
 
 
-def contact_energy(touch, c, history, features):
+def contact_energy(touch, c, history, choices):
     return 0.5 * c.k * touch.overlap**2
 
 
@@ -109,6 +113,6 @@ def clast_register(registry):
     bond = {"constants": constants, "stiffness": stiffness, "load": load, "energy": energy, "flow": flow}
     bond |= {"failure": failure, "mode": mode, "modes": ("tension",)}
     registry.bond_model("softening", BondModel("softens", Softening, BondConstants, State=BondState, **bond))
-    contact = {"constants": contact_constants, "load": contact_load, "energy": contact_energy}
-    contact |= {"stiffness": contact_stiffness}
+    contact = {"constants": contact_constants, "choices": choices, "load": contact_load}
+    contact |= {"energy": contact_energy, "stiffness": contact_stiffness}
     registry.contact_law("linear", ContactLaw("spring and dashpot", Linear, ContactConstants, **contact))

@@ -43,9 +43,13 @@ region upper plane 0 0 {top:.17g} 0 0 -1 move NULL NULL v_shift
 fix move all nve/bpm/sphere
 fix lower all wall/gran/region granular {contact} region lower contacts
 fix upper all wall/gran/region granular {contact} region upper contacts
+compute push all reduce sum f_upper[4]
+thermo_style custom step c_push
 thermo 100000000
 thermo_modify lost ignore lost/bond ignore
 run ${{steps}}
+variable force equal abs(c_push)
+print "$(v_force:%.9e)" file {name}.force screen no
 """
 
 

@@ -1,36 +1,99 @@
-"""What runs in a process of its own: one scene, timed from inside; prints one line of JSON.
-
-``python -m tests.benchmarks.worker FILE FIRST LAST`` builds the scene, steps to FIRST, then times the steps to LAST.
-"""
+"""What runs in a process of its own and is timed from inside; every task prints one line of JSON at the end."""
 
 from __future__ import annotations
 
 import json
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
 
 from clast import Simulation, load
 
+Measured = dict[str, Any]
 
-def main(file: Path, first: int, last: int) -> dict[str, float]:
-    """Run a scene and return its times in s; ``first_step_at`` is the wall clock when FIRST was reached."""
+
+def window(file: str, first: str, last: str) -> Measured:
+    """Time the steps from FIRST to LAST of a scene; times in CPU s."""
     begun = time.process_time()
     simulation = Simulation(load(file))
     built = time.process_time()
-    simulation.advance_to(first)
-    ready, at, wall = time.process_time(), time.time(), time.perf_counter()
-    simulation.advance_to(last)
+    simulation.advance_to(int(first))
+    ready = time.process_time()
+    simulation.advance_to(int(last))
     return {
-        "build_s": built - begun,
-        "load_s": ready - built,
+        "set_up_s": built - begun,
         "cpu_s": time.process_time() - ready,
-        "wall_s": time.perf_counter() - wall,
-        "first_step_at": at,
-        "broken": simulation.bonds_broken,
-        "rebuilds": simulation.rebuilds,
+        "force_N": float(np.abs(simulation.world.walls.force).max()) if len(simulation.world.walls.force) else 0.0,
     }
 
 
+def first_step(file: str) -> Measured:
+    """Take one step of a scene; tell the wall clock then."""
+    simulation = Simulation(load(file))
+    simulation.advance_to(0)
+    begun = time.perf_counter()
+    simulation.advance_to(1)
+    return {"at": time.time(), "step_s": time.perf_counter() - begun}
+
+
+def compile_scenes(*files: str) -> Measured:
+    """Compile the loops of scenes, or find them on disk."""
+    for file in files:
+        Simulation(load(file)).advance_to(0)
+    return {}
+
+
+def compare_scenes(first: str, steps: str, rounds: str, *files: str) -> Measured:
+    """Advance several scenes by turns; CPU s per step of each, one value a round."""
+    simulations = {Path(file).stem: Simulation(load(file)) for file in files}
+    for simulation in simulations.values():
+        simulation.advance_to(int(first))
+    times: dict[str, list[float]] = {name: [] for name in simulations}
+    for _ in range(int(rounds)):
+        for name, simulation in simulations.items():
+            begun = time.process_time()
+            simulation.advance_to(simulation.step + int(steps))
+            times[name].append((time.process_time() - begun) / int(steps))
+    return times
+
+
+def crush(file: str, parts: str) -> Measured:
+    """Run a scene to its end in equal parts; steps per CPU s and how often lists were made, part by part."""
+    simulation = Simulation(load(file, ["output.writers=[]"]))
+    simulation.advance_to(0)
+    edges = np.linspace(0, simulation.last_step, int(parts) + 1).astype(int)
+    rates, rebuilds, strains = [], [], []
+    for first, last in zip(edges, edges[1:], strict=False):
+        begun, made = time.process_time(), simulation.rebuilds
+        simulation.advance_to(int(last))
+        rates.append(float(last - first) / (time.process_time() - begun))
+        rebuilds.append(simulation.rebuilds - made)
+        strains.append(simulation.gauge.strain(simulation.world.walls))
+    return {"strain": strains, "steps_per_s": rates, "rebuilds": rebuilds, "list_s": _list_time(simulation)}
+
+
+def _list_time(simulation: Simulation) -> float:
+    """Return CPU s of making neighbour lists once."""
+    times = []
+    for _ in range(5):
+        begun = time.process_time()
+        simulation.renew_lists()
+        times.append(time.process_time() - begun)
+    return float(median(times))
+
+
+TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes, crush)}
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Run the task named first with the other arguments."""
+    print(json.dumps(TASKS[arguments[0]](*arguments[1:])))
+
+
 if __name__ == "__main__":
-    print(json.dumps(main(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]))))
+    main(sys.argv[1:])

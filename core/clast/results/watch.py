@@ -18,7 +18,7 @@ class Interrupted(RunError):
     """The run was asked to stop by Ctrl-C or SIGTERM; its exit code is 128 plus the signal's number."""
 
     def __init__(self, number: int) -> None:
-        super().__init__(f"stopped by {signal.Signals(number).name}")
+        super().__init__(f"stopped by {signal.Signals(number).name}; go on with --resume")
         self.exit_code = 128 + number
 
 
@@ -40,6 +40,7 @@ class Watch:
     ) -> None:
         self.show, self.checkpoint, self.interval = show, checkpoint, interval
         self.stride = 1
+        self.due = 0
         self.looked = self.saved = time.monotonic()
         self.step = 0
         self.signal = 0
@@ -58,8 +59,8 @@ class Watch:
         self.signal = number
 
     def next_step(self, step: int) -> int | None:
-        """Return a step that is reached in about a fifth of a second."""
-        return step + self.stride
+        """Return the step that is reached about a fifth of a second after the last look."""
+        return max(self.due, step + 1)
 
     def observe(self, simulation: Simulation) -> None:
         """Show progress, save when due, stop when asked.
@@ -73,6 +74,7 @@ class Watch:
         rate = (simulation.step - self.step) / max(now - self.looked, 1e-9)
         self.stride = max(1, min(10 * self.stride, int(rate * LOOK_EVERY)))
         self.looked, self.step = now, simulation.step
+        self.due = simulation.step + self.stride
         self.show(simulation, rate)
         if self.signal:
             raise Interrupted(self.signal)

@@ -1,0 +1,83 @@
+"""A sphere against a wall, from touch to parting: restitution and friction in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from clast.maths.vec3 import Vec
+from clast.parts.contact_law import Features, Touch
+from tests.support.contacts import GLASS, REST, contact
+
+RADIUS, MASS, SPEED = 1e-3, 4e-6, 0.5
+NORMAL = (0.0, 0.0, -1.0)  # from the sphere down to the wall
+
+
+def touch(overlap: float, approach: float, slide: float = 0.0) -> Touch:
+    """Return the contact of a sphere that comes down and moves sideways; the wall moves against it."""
+    velocity: Vec = (-slide, 0.0, approach)
+    return Touch(overlap, NORMAL, velocity, REST, REST, RADIUS, RADIUS, 0.0, 1.0 / MASS, 2.5 / (MASS * RADIUS**2))
+
+
+def impact(law, slide: float = 0.0, until: str = "parting") -> np.ndarray:
+    """Return overlap, approach velocity and sideways impulse when the overlap is back to 0, or the force is."""
+
+    def force_on_sphere(state: np.ndarray) -> np.ndarray:
+        return -np.array(law.load(touch(max(state[0], 0.0), state[1], slide))[0].force)
+
+    def rate(time: float, state: np.ndarray) -> list[float]:
+        force = force_on_sphere(state)
+        return [state[1], -force[2] / MASS, force[0]]
+
+    def parting(time: float, state: np.ndarray) -> float:
+        return float(state[0])
+
+    def letting_go(time: float, state: np.ndarray) -> float:
+        return float(force_on_sphere(state)[2]) - 1e-12
+
+    event = {"parting": parting, "letting_go": letting_go}[until]
+    event.terminal, event.direction = True, -1.0
+    start = [1e-14, SPEED, 0.0]
+    return solve_ivp(rate, (0.0, 0.1), start, events=event, rtol=1e-9, atol=[1e-15, 1e-11, 1e-15]).y[:, -1]
+
+
+def damped(e: float, **options: str | bool):
+    return contact(GLASS._replace(restitution=e), Features(True, False, False), **options)
+
+
+@pytest.mark.parametrize("e", [1.0, 0.9, 0.5, 0.1])
+def test_a_sphere_bounces_with_its_coefficient_of_restitution(e):
+    _, approach, _ = impact(damped(e))
+    assert -approach / SPEED == pytest.approx(e, rel=1e-5)
+
+
+def test_with_restitution_1_there_is_no_damping_at_all():
+    still, leaving = (damped(1.0).load(touch(1e-5, speed))[0].force for speed in (0.0, -1.0))
+    assert still == leaving
+
+
+def test_with_restitution_0_the_force_dies_before_any_rebound_of_note():
+    law = damped(0.0)
+    assert all(math.isfinite(x) for x in law.load(touch(1e-5, 0.1))[0].force)
+    _, approach, _ = impact(law, until="letting_go")
+    slower = impact(damped(0.001), until="letting_go")[1]
+    assert -approach / SPEED == pytest.approx(-slower / SPEED, abs=0.1)
+    assert -approach / SPEED < 0.5
+
+
+def test_cutting_the_pull_off_leaves_a_larger_restitution_as_documented():
+    """NUMERICS: e = 0.5 becomes 0.55."""
+    _, approach, _ = impact(damped(0.5, tension_cutoff=True), until="letting_go")
+    assert -approach / SPEED == pytest.approx(0.55, abs=0.005)
+
+
+@pytest.mark.parametrize(("limit", "excess"), [("elastic", 1.0), ("total", 1.12)])
+def test_gross_sliding_takes_the_impulse_of_coulomb(limit, excess):
+    """The limit ``elastic`` gives μ (1 + e) m v exactly, ``total`` a known share more."""
+    e, mu = 0.5, 0.1
+    pair = GLASS._replace(restitution=e, sliding_friction=mu)
+    _, _, impulse = impact(contact(pair, Features(True, True, False), coulomb_limit=limit), slide=500.0)
+    assert -impulse / (mu * (1.0 + e) * MASS * SPEED) == pytest.approx(excess, abs=1e-4 if excess == 1.0 else 0.01)
