@@ -16,7 +16,11 @@ PLAIN_EVERY = 5.0
 
 
 def run(
-    file: Path, output: Path | None = None, overrides: Iterable[str] = (), threads: int = 1, resume: bool = False
+    file: Path,
+    output: Path | None = None,
+    overrides: Iterable[str] = (),
+    threads: int = 1,
+    resume: bool = False,
 ) -> None:
     """Run a scene file and print what came out.
 
@@ -70,9 +74,7 @@ class Lines(Listener):
         """Tell the size of the run."""
         scene = simulation.scene
         left = simulation.last_step - simulation.step
-        self.say(
-            f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left} steps of {simulation.dt:.3g} s"
-        )
+        self.say(f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left} steps of {simulation.dt:.3g} s")
         self.last = time.monotonic()
 
     def progress(self, simulation: Simulation, rate: float) -> None:
@@ -156,7 +158,12 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [("particles, bonds", f"{counts['particles']}, {counts['bonds']}")]
     if "peak_stress_Pa" in summary:
         where = "" if summary["peak_inside_run"] else " (still rising or not yet fallen by a fifth)"
-        rows.append(("peak stress", f"{summary['peak_stress_Pa'] / 1e6:.3f} MPa at {summary['strain_at_peak']:.2%}{where}"))
+        rows.append(
+            (
+                "peak stress",
+                f"{summary['peak_stress_Pa'] / 1e6:.3f} MPa at {summary['strain_at_peak']:.2%}{where}",
+            )
+        )
         for key, text in (
             ("secant_modulus_20_80_Pa", "secant modulus, 20 to 80 %"),
             ("hertz_modulus_at_2_percent_Pa", "Hertz modulus at 2 %"),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -21,7 +20,7 @@ from clast.results.frames import Frames
 from clast.results.run import open_run
 from clast.results.samples import Samples
 from clast.results.store import Store
-from clast.results.watch import Interrupted, Watch
+from clast.results.watch import RunInterruptedError, Watch
 from clast.simulation import Simulation
 
 CONFIG_FILE = "config.yaml"
@@ -40,19 +39,19 @@ class Listener:
     """Hears how a session goes; this one says nothing."""
 
     def building(self) -> None:
-        """Generators start."""
+        """Hear that generators start."""
 
     def compiling(self) -> None:
-        """Kernels are about to be compiled for the first time."""
+        """Hear that kernels are about to be compiled for the first time."""
 
     def started(self, simulation: Simulation) -> None:
-        """The step loop starts."""
+        """Hear that the step loop starts."""
 
     def progress(self, simulation: Simulation, rate: float) -> None:
-        """Some steps were taken, at a rate in steps per second."""
+        """Hear that steps were taken, at a rate in steps per second."""
 
     def writing(self, name: str) -> None:
-        """A writer starts."""
+        """Hear that a writer starts."""
 
 
 def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener: Listener | None = None) -> Outcome:
@@ -73,7 +72,7 @@ def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener:
 
     Raises
     ------
-    Interrupted
+    RunInterruptedError
         After Ctrl-C or SIGTERM, with a checkpoint written.
     RunError
         If the folder, the checkpoint or the run fails.
@@ -89,7 +88,7 @@ def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener:
         elapsed, steps = session.advance()
         return session.finish(elapsed, steps)
     except KeyboardInterrupt:  # before or after the step loop, which handles signals itself
-        raise Interrupted(signal.SIGINT) from None
+        raise RunInterruptedError(signal.SIGINT) from None
 
 
 def prepare_folder(folder: Path, resume: bool) -> None:
@@ -104,7 +103,9 @@ def prepare_folder(folder: Path, resume: bool) -> None:
     if resume and not has_run:
         raise RunError(f"{folder}: no run to resume here; name its folder with -o, or run without --resume")
     if has_run and not resume:
-        raise RunError(f"{folder}: holds a run already; add --resume to go on with it, or choose another folder with -o")
+        raise RunError(
+            f"{folder}: holds a run already; add --resume to go on with it, or choose another folder with -o"
+        )
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe = folder / ".probe"
@@ -147,7 +148,7 @@ class _Session:
                 simulation.run([self.samples, self.frames, watch])
                 elapsed = time.perf_counter() - begun
                 self.save()
-            except Interrupted:
+            except RunInterruptedError:
                 self.save()
                 raise
             finally:

@@ -18,6 +18,7 @@ from clast.errors import RunError
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, build_world, relieve
 from clast.scene.scene import Scene, build_scene
+from clast.scene.start import check_start
 
 BOND_COLUMNS = 8
 
@@ -58,6 +59,7 @@ class Simulation:
     def __init__(self, config: SceneConfig) -> None:
         self.config = config
         self.scene: Scene = build_scene(config)
+        check_start(self.scene)
         self.plan = blueprint(self.scene)
         self.limits: Limits = limits(self.scene, self.plan)
         self.dt = choose_step(self.scene, self.limits)
@@ -85,7 +87,7 @@ class Simulation:
     @property
     def bonds_broken(self) -> int:
         """Number of bonds that broke."""
-        return int(self.world.cracks.count[0])
+        return int(self.world.cracks.filled[0])
 
     @property
     def bonds_intact(self) -> int:
@@ -123,7 +125,7 @@ class Simulation:
     def renew_lists(self) -> None:
         """Search for neighbours at the present positions."""
         world = self.world
-        particles, history = world.particles, self.plan.history
+        particles = world.particles
         if self.plan.contacts is not None:
             search = self.config.neighbours.search.part
             if self.plan.contacts.between_particles:

@@ -23,9 +23,7 @@ def view(folder: Path) -> None:
     """
     recording = _find_recording(Path(folder))
     if find_spec("rerun_cli") is None:
-        raise RunError(
-            f"the rerun viewer is not installed; `pip install rerun-sdk`, then `rerun {recording}`"
-        )
+        raise RunError(f"the rerun viewer is not installed; `pip install rerun-sdk`, then `rerun {recording}`")
     if not _has_screen():
         raise RunError(_elsewhere("this machine has no screen", recording))
     # the viewer listens for data; it must not do so on the network
@@ -45,8 +43,7 @@ def _find_recording(folder: Path) -> Path:
     if not folder.is_dir():
         raise RunError(f"{folder}: there is no such run folder")
     raise RunError(
-        f"{folder}: holds no {RECORDING_FILE}; the run has not ended, "
-        "or its scene leaves out the writer `recording`"
+        f"{folder}: holds no {RECORDING_FILE}; the run has not ended, or its scene leaves out the writer `recording`"
     )
 
 

@@ -62,12 +62,20 @@ def _only_motion(data: SceneData) -> None:
 
 
 VARIANTS = (
-    Variant(EVERYTHING, "everything of the base grain: Model 3, contacts with rolling friction, two plates", _nothing),
+    Variant(
+        EVERYTHING,
+        "everything of the base grain: Model 3, contacts with rolling friction, two plates",
+        _nothing,
+    ),
     Variant("no_rolling", "no rolling friction", _pairs(rolling_friction=0.0)),
     Variant("no_friction", "no sliding or rolling friction", _pairs(rolling_friction=0.0, sliding_friction=0.0)),
     Variant("no_contact_damping", "no damping in contacts (restitution 1)", _pairs(restitution=1.0)),
     Variant("no_walls", "no plates", _set("walls", {})),
-    Variant("no_bonded_contact", "no contact of bonded pairs", lambda data: data["contacts"].update(bonded_pairs=False)),
+    Variant(
+        "no_bonded_contact",
+        "no contact of bonded pairs",
+        lambda data: data["contacts"].update(bonded_pairs=False),
+    ),
     Variant("no_contacts", "no contacts, so no plates either", _without_contacts),
     Variant("no_bonds", "no bonds", _without_bonds),
     Variant("only_motion", "no bonds, no contacts: motion alone", _only_motion),

@@ -70,7 +70,18 @@ class Peer:
 
     def command(self, file: Path, steps: int) -> list[str]:
         """Return the command that runs an input file for a number of steps."""
-        return [str(self.program), "-in", str(file), "-var", "steps", str(steps), "-log", "none", "-screen", "none"]
+        return [
+            str(self.program),
+            "-in",
+            str(file),
+            "-var",
+            "steps",
+            str(steps),
+            "-log",
+            "none",
+            "-screen",
+            "none",
+        ]
 
     def environment(self) -> dict[str, str]:
         """Return what the command needs around it."""
@@ -184,7 +195,14 @@ def data_text(body: Body) -> str:
     x, d = body.position, body.diameter
     room = np.array([4.0, 4.0, 1.0]) * d
     degree = int(np.bincount(body.ends.ravel()).max())
-    head = ["bonded spheres", "", f"{len(x)} atoms", f"{len(body.ends)} bonds", "1 atom types", "1 bond types"]
+    head = [
+        "bonded spheres",
+        "",
+        f"{len(x)} atoms",
+        f"{len(body.ends)} bonds",
+        "1 atom types",
+        "1 bond types",
+    ]
     head += [f"{degree} extra bond per atom", f"{4 * degree} extra special per atom", ""]
     for axis, low, high in zip("xyz", x.min(0) - room, x.max(0) + room, strict=True):
         head.append(f"{low:.17g} {high:.17g} {axis}lo {axis}hi")

@@ -86,7 +86,11 @@ def compare(
             try:
                 _time_peer(peer, body, window, beside, folder)
             except BenchmarkError as error:
-                peer, beside, problem = None, None, f"LAMMPS does not run this scene: {str(error).splitlines()[0]}"
+                peer, beside, problem = (
+                    None,
+                    None,
+                    f"LAMMPS does not run this scene: {str(error).splitlines()[0]}",
+                )
         for model, file in files.items():
             _time_clast(file, window, clast[model])
         say(f"{body.name}, turn {turn + 1}: {_turn_text(clast, beside)}")

@@ -20,10 +20,7 @@ def test_an_error_is_one_message_and_exit_code_2(tmp_path):
     (tmp_path / "s.yaml").write_text("materials: {}\nmaterials: {}\n")
     result = invoke("check", tmp_path / "s.yaml")
     assert result.exit_code == 2
-    assert (
-        result.stderr
-        == f"{tmp_path}/s.yaml:2:1: materials: said twice, first in line 1; remove one of them\n"
-    )
+    assert result.stderr == f"{tmp_path}/s.yaml:2:1: materials: said twice, first in line 1; remove one of them\n"
     assert result.stdout == ""
 
 

@@ -102,5 +102,3 @@ def turned(touch: Touch, q: Quat) -> Touch:
     """Return the same contact in a rotated world."""
     names = ("normal", "velocity", "spin_i", "spin_j")
     return touch._replace(**{name: rotate(q, getattr(touch, name)) for name in names})
-
-

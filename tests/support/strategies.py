@@ -17,9 +17,7 @@ def numbers(low: float, high: float) -> st.SearchStrategy[float]:
 
 def vectors(size: float = 1.0) -> st.SearchStrategy[Vec]:
     """Draw vectors whose components are 0 or not many orders of magnitude below ``size``."""
-    return st.tuples(*[numbers(-size, size)] * 3).map(
-        lambda a: tuple(0.0 if abs(x) < 1e-9 * size else x for x in a)
-    )
+    return st.tuples(*[numbers(-size, size)] * 3).map(lambda a: tuple(0.0 if abs(x) < 1e-9 * size else x for x in a))
 
 
 def unit(a: Vec) -> Vec:

@@ -67,9 +67,7 @@ def test_comparison_draws_one_curve_per_run(grain: Run, tmp_path: Path) -> None:
     assert has_colour(path, "#228833")
 
 
-def test_comparison_refuses_runs_without_curve_and_missing_labels(
-    grain: Run, spheres: Run, tmp_path: Path
-) -> None:
+def test_comparison_refuses_runs_without_curve_and_missing_labels(grain: Run, spheres: Run, tmp_path: Path) -> None:
     with pytest.raises(RunError, match="no compression curve"):
         plot_stress_strain([grain, spheres], ["a", "b"], tmp_path / "compare.png")
     with pytest.raises(RunError, match="one label per run"):

@@ -37,12 +37,8 @@ def test_four_writers_are_registered() -> None:
 
 def test_loading_the_plugin_imports_nothing_heavy() -> None:
     code = "import sys, clast_viz; print(*{name.split('.')[0] for name in sys.modules})"
-    loaded = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    ).stdout.split()
-    assert not {"rerun", "vtkmodules", "vtk", "pyvista", "matplotlib", "pyarrow", "h5py", "numba"} & set(
-        loaded
-    )
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert not {"rerun", "vtkmodules", "vtk", "pyvista", "matplotlib", "pyarrow", "h5py", "numba"} & set(loaded)
 
 
 def test_failed_write_leaves_the_old_file_and_no_draft(tmp_path: Path) -> None:

@@ -36,9 +36,7 @@ def recorded(grain_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Pa
     return path
 
 
-def column(
-    path: Path, entity: str, component: str, *, index: str = "time"
-) -> tuple[NDArray[np.int64], list[Any]]:
+def column(path: Path, entity: str, component: str, *, index: str = "time") -> tuple[NDArray[np.int64], list[Any]]:
     """Return the index in ns (0 when static) and the values of a component, in order of the index."""
     from rerun.chunk import RrdReader
 
@@ -100,9 +98,7 @@ def test_plates_move_as_in_the_frames(recorded: Path, grain: Run) -> None:
     ("entity", "name", "scale"),
     [("stress", "stress_Pa", 1e-6), ("strain", "strain", 100.0), ("bonds_broken", "bonds_broken", 1.0)],
 )
-def test_curves_are_those_of_the_run(
-    recorded: Path, grain: Run, entity: str, name: str, scale: float
-) -> None:
+def test_curves_are_those_of_the_run(recorded: Path, grain: Run, entity: str, name: str, scale: float) -> None:
     at, values = column(recorded, f"/curves/{entity}", "Scalars:scalars")
     np.testing.assert_allclose(at, grain.curves["time_s"] * 1e9, atol=1.0)
     np.testing.assert_array_equal(np.array(values)[:, 0], grain.curves[name] * scale)

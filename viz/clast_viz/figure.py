@@ -98,9 +98,7 @@ def finish_axes(upper: Any, lower: Any | None) -> None:
     upper.set_axisbelow(True)
     # above the axes: inside, long labels and the scatter of the reference would hide the curve
     entries = len(upper.get_legend_handles_labels()[1])
-    upper.legend(
-        loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, ncols=2 if entries > 3 else 1
-    )
+    upper.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, ncols=2 if entries > 3 else 1)
     bottom = upper
     if lower is not None:
         lower.set_ylabel("bonds broken")

@@ -57,9 +57,7 @@ def colour_of(load: NDArray[np.float32]) -> NDArray[np.uint8]:
     return colours
 
 
-def drawn_bonds(
-    load: NDArray[np.float32], finite_where: NDArray[np.float32], budget: int
-) -> NDArray[np.intp]:
+def drawn_bonds(load: NDArray[np.float32], finite_where: NDArray[np.float32], budget: int) -> NDArray[np.intp]:
     """Choose the bonds to draw: all intact ones, or within the budget half by load and half as a sample.
 
     Parameters

@@ -88,14 +88,10 @@ def _log_static(stream: Any, run: Run) -> None:
         static=True,
     )
     for name, wall in run.walls.items():
-        mesh = rr.Mesh3D(
-            vertex_positions=wall.points, triangle_indices=wall.triangles, albedo_factor=WALL_COLOUR
-        )
+        mesh = rr.Mesh3D(vertex_positions=wall.points, triangle_indices=wall.triangles, albedo_factor=WALL_COLOUR)
         stream.log(f"scene/walls/{name}", mesh, static=True)
         edges = wall.points[_outline(wall.triangles)]
-        stream.log(
-            f"scene/walls/{name}/outline", rr.LineStrips3D(edges, colors=WALL_EDGE_COLOUR), static=True
-        )
+        stream.log(f"scene/walls/{name}/outline", rr.LineStrips3D(edges, colors=WALL_EDGE_COLOUR), static=True)
 
 
 def _log_frame(stream: Any, run: Run, frame: Frame, cracks: Cracks, budget: int) -> None:
@@ -136,9 +132,7 @@ def _strips(ends: NDArray[np.float32]) -> Any:
 
 def _outline(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the (e, 2) edges that belong to one triangle only, or all edges of a closed surface."""
-    edges = np.sort(
-        np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1
-    )
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     unique, count = np.unique(edges, axis=0, return_counts=True)
     border: NDArray[np.int64] = unique[count == 1]
     return border if len(border) else unique

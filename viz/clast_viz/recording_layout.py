@@ -62,9 +62,7 @@ def _scene_views(run: Run) -> Any:
     if len(run.bond_ends) == 0:
         return spheres
     small = rr.Points3D.from_fields(radii=(BALL_SIZE * run.radius).astype(np.float32))
-    bonds = _scene_view(
-        run, "Load in the bonds (red: tension, blue: compression)", [], {"/scene/particles": small}
-    )
+    bonds = _scene_view(run, "Load in the bonds (red: tension, blue: compression)", [], {"/scene/particles": small})
     return rrb.Tabs(bonds, spheres, active_tab=0)
 
 

@@ -100,9 +100,7 @@ def _log_reference(stream: Any, plot: Plot, k: int, reference: Reference) -> Non
     stream.log(f"{entity}/point", point, static=True)
     # above the axes, where it covers no curve
     above = [[0.62 * WIDTH, -HEIGHT - 15.0 - LINE * k]]
-    label = rr.Points2D(
-        above, radii=0.0, colors=REFERENCE_COLOUR, labels=[f"● {reference.label}"], show_labels=True
-    )
+    label = rr.Points2D(above, radii=0.0, colors=REFERENCE_COLOUR, labels=[f"● {reference.label}"], show_labels=True)
     stream.log(f"{entity}/label", label, static=True)
 
 

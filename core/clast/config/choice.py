@@ -127,9 +127,7 @@ class PartOf:
 
         return core_schema.with_info_plain_validator_function(validate)
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Leave a mark that :mod:`clast.config.json_schema` replaces by the registry's parts."""
         return {KIND_KEY: self.kind}
 
@@ -146,9 +144,7 @@ class WallOf:
         """Validate shape and settings apart, and report the problems of both."""
         return core_schema.with_info_plain_validator_function(_wall)
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Leave a mark that :mod:`clast.config.json_schema` replaces by the registry's walls."""
         return {KIND_KEY: "wall"}
 

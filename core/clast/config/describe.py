@@ -54,9 +54,7 @@ def part_text(registry: Registry, name: str) -> str:
     """
     found = [entry for entry in registry if name in (entry.name, f"{entry.kind}.{entry.name}")]
     if not found:
-        raise PluginError(
-            f"no part is named {name!r}; {suggestion(name, {entry.name for entry in registry})}"
-        )
+        raise PluginError(f"no part is named {name!r}; {suggestion(name, {entry.name for entry in registry})}")
     return "\n\n".join(_entry_text(entry) for entry in found)
 
 

@@ -134,9 +134,7 @@ def _duration(scene: SceneConfig) -> float | None:
     """Time to the strain asked for, as long as the plates keep their first speed."""
     if scene.compression is None or scene.time.end.strain is None:
         return None
-    upper, lower = (
-        _velocity(scene.walls[name]) for name in (scene.compression.upper, scene.compression.lower)
-    )
+    upper, lower = (_velocity(scene.walls[name]) for name in (scene.compression.upper, scene.compression.lower))
     speed = sqrt(sum((a - b) ** 2 for a, b in zip(upper, lower, strict=True)))
     return scene.time.end.strain * scene.compression.height / speed if speed > 0 else None
 

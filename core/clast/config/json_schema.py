@@ -125,7 +125,6 @@ def _standard_bounds(value: Any) -> Any:
 def _renamed(value: Any, names: Mapping[str, str]) -> Any:
     if isinstance(value, Mapping):
         return {
-            key: names.get(inner, inner) if key == "$ref" else _renamed(inner, names)
-            for key, inner in value.items()
+            key: names.get(inner, inner) if key == "$ref" else _renamed(inner, names) for key, inner in value.items()
         }
     return [_renamed(inner, names) for inner in value] if isinstance(value, list) else value

@@ -32,9 +32,7 @@ def refuse(problems: Sequence[InitErrorDetails]) -> ValidationError:
     return ValidationError.from_exception_data("scene", list(problems))
 
 
-def explain(
-    error: ValidationError, model: type[BaseModel], also: Collection[str] = ()
-) -> list[InitErrorDetails]:
+def explain(error: ValidationError, model: type[BaseModel], also: Collection[str] = ()) -> list[InitErrorDetails]:
     """Put every error of a validation into plain words.
 
     Parameters

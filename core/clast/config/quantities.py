@@ -115,9 +115,7 @@ class Unit:
 
         return core_schema.no_info_before_validator_function(parse, handler(source))
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Tell editors that a number or a text is welcome, and in which unit."""
         described = dict(handler(schema))
         described["type"] = ["number", "string"]

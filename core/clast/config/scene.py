@@ -57,13 +57,9 @@ class SceneConfig(Params):
         Field(pattern=r"^[^/\\\x00]+$", description="Name of the scene; by default that of the file"),
     ] = "scene"
     description: Annotated[str, Field(description="What the scene shows")] = ""
-    plugins: Annotated[
-        tuple[str, ...], Field(description="Python files with plugins, relative to the scene file")
-    ] = ()
+    plugins: Annotated[tuple[str, ...], Field(description="Python files with plugins, relative to the scene file")] = ()
     materials: Annotated[dict[str, Material], Field(min_length=1, description="Materials by name")]
-    particles: Annotated[
-        Generators, Discriminator(_one_or_list), Field(description="One generator, or a list of them")
-    ]
+    particles: Annotated[Generators, Discriminator(_one_or_list), Field(description="One generator, or a list of them")]
     bonds: Annotated[Bonds | None, Field(description="Solid bridges between particles")] = None
     contacts: Annotated[Contacts | None, Field(description="Contact of particles and walls")] = None
     walls: Annotated[dict[str, Annotated[WallChoice, WallOf()]], Field(description="Walls by name")] = Field(
@@ -73,12 +69,10 @@ class SceneConfig(Params):
         tuple[Annotated[Chosen, PartOf("body_force")], ...], Field(description="Forces that act everywhere")
     ] = ()
     boundaries: Annotated[Boundaries, Field(description="Limits of the scene")] = Boundaries()
-    compression: Annotated[
-        Compression | None, Field(description="How strain and stress are read off two plates")
-    ] = None
-    integrator: Annotated[Chosen, PartOf("integrator"), Field(description="Time integrator")] = default_part(
-        "midstep"
+    compression: Annotated[Compression | None, Field(description="How strain and stress are read off two plates")] = (
+        None
     )
+    integrator: Annotated[Chosen, PartOf("integrator"), Field(description="Time integrator")] = default_part("midstep")
     neighbours: Annotated[Neighbours, Field(description="How neighbours are found")] = Field(
         default_factory=dict, validate_default=True
     )

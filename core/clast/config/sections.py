@@ -25,9 +25,9 @@ class BondRange(Params):
     """Which pairs of particles are bonded."""
 
     max_gap: Annotated[Length, Field(ge=0, description="Largest gap between surfaces that is bonded")]
-    min_gap: Annotated[
-        Length | None, Field(description="Smallest gap that is bonded; overlaps are negative gaps")
-    ] = None
+    min_gap: Annotated[Length | None, Field(description="Smallest gap that is bonded; overlaps are negative gaps")] = (
+        None
+    )
     diameter: Annotated[
         Annotated[Length, Field(gt=0)] | None,
         Field(description="Diameter of the bonds; by default the smaller particle's"),
@@ -77,6 +77,9 @@ class Contacts(Params):
             "or a radius away"
         ),
     ] = "contact_point"
+    start_overlap: Annotated[
+        Number, Field(ge=0, description="Largest overlap at the start, as a share of the smaller radius")
+    ] = 0.05
     pairs: Annotated[
         dict[str, PairSettings],
         Field(description="Settings by pair of materials, 'glass-steel', and 'default' for the others"),
@@ -131,8 +134,8 @@ class Compression(Params):
 class Neighbours(Params):
     """How particles that may touch are found."""
 
-    search: Annotated[Chosen, PartOf("neighbour_search"), Field(description="Neighbour search")] = (
-        default_part("linked_cells")
+    search: Annotated[Chosen, PartOf("neighbour_search"), Field(description="Neighbour search")] = default_part(
+        "linked_cells"
     )
     skin: Annotated[
         Annotated[Literal["auto"], Tag("<auto>")] | Annotated[Length, Field(gt=0), Tag("<length>")],

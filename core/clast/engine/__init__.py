@@ -1,0 +1,1 @@
+"""Engine: assembles the step loop of a scene and runs it."""

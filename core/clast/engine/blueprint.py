@@ -106,7 +106,14 @@ class Blueprint:
         found: list[Callable[..., Any] | None] = []
         if self.bonds is not None:
             model, kinematics = self.bonds.model, self.bonds.kinematics
-            found += [kinematics.measure, kinematics.end_loads, model.load, model.failure, model.mode, model.energy]
+            found += [
+                kinematics.measure,
+                kinematics.end_loads,
+                model.load,
+                model.failure,
+                model.mode,
+                model.energy,
+            ]
             found += [model.flow, model.overload, model.on_event]
         if self.contacts is not None:
             found += [self.contacts.law.load, self.contacts.law.energy]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.kernels.layout import INTACT, INVERSE_MASS, RADIUS, X
-from clast.engine.state import Bonds, Floats, Integers, Pairs, Particles, WallPairs, Walls
+from clast.engine.state import Bonds, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import slot_view
 from clast.parts.neighbour_search import NeighbourSearch
 
@@ -39,7 +39,9 @@ def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: Neighbour
     )
 
 
-def find_wall_pairs(particles: Particles, walls: Walls, old: WallPairs, near_walls: NearWalls, skin: float) -> WallPairs:
+def find_wall_pairs(
+    particles: Particles, walls: Walls, old: WallPairs, near_walls: NearWalls, skin: float
+) -> WallPairs:
     """Return the particles closer to a wall than the skin, with the history of those that were known."""
     near = np.zeros((len(walls.shape_kind), len(particles.pose)), np.uint8)
     near_walls(particles, walls, skin, near)
@@ -85,5 +87,3 @@ def remember_positions(particles: Particles, walls: Walls) -> None:
     """Note where everything is, so that the loop can tell when the lists go stale."""
     particles.reference[:] = particles.pose[:, X : X + 3]
     walls.reference[:] = walls.displacement
-
-

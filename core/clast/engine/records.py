@@ -44,7 +44,7 @@ def fields(record: type | None) -> list[Field]:
 
 def _size(record: type, name: str, hint: Any) -> int:
     arguments = get_args(hint)
-    if hint in (float, int) or float in arguments and hint is not tuple and not _is_tuple(hint):
+    if hint in (float, int) or (float in arguments and hint is not tuple and not _is_tuple(hint)):
         return 1
     if _is_tuple(hint) and all(argument is float for argument in arguments):
         return len(arguments)

@@ -31,7 +31,15 @@ def nothing(*args):
 
 def slots_text(plan: Blueprint) -> str:
     """Return the source of the ``slots`` module for a blueprint."""
-    parts = [HEADER, _flags(plan), _integrator(plan), _bonds(plan), _contacts(plan), _walls(plan), _body(plan)]
+    parts = [
+        HEADER,
+        _flags(plan),
+        _integrator(plan),
+        _bonds(plan),
+        _contacts(plan),
+        _walls(plan),
+        _body(plan),
+    ]
     return "\n\n".join(part.strip("\n") for part in parts) + "\n"
 
 
@@ -112,8 +120,8 @@ def _writer(name: str, record: type | None, first: int) -> str:
 
 def _bonds(plan: Blueprint) -> str:
     if plan.bonds is None:
-        names = "measure end_loads load flow failure mode energy overload on_event".split()
-        readers = "uniforms reference constants damping kinematic_state bond_state".split()
+        names = ["measure", "end_loads", "load", "flow", "failure", "mode", "energy", "overload", "on_event"]
+        readers = ["uniforms", "reference", "constants", "damping", "kinematic_state", "bond_state"]
         lines = [f"bond_{name} = nothing" for name in names] + [f"read_{name} = nothing" for name in readers]
         return "\n".join([*lines, "write_kinematic_state = write_bond_state = nothing"])
     bonds, at = plan.bonds, bond_offsets(plan.bonds)
@@ -199,10 +207,12 @@ def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> li
     return [
         *lines,
         _function("read_history", "data, first, lane", f"return {construct(kept, 'History', in_lane)}"),
-        _function("write_history", "data, first, lane, record", [f"{a} = {b}" for a, b in zip(in_lane, numbers)]),
+        _function(
+            "write_history", "data, first, lane, record", [f"{a} = {b}" for a, b in zip(in_lane, numbers, strict=False)]
+        ),
         _function("carry_history", "record, old, new, angle", f"return History({', '.join(carried)})"),
         _function("load_history", "row", f"return {construct(kept, 'History', rows)}"),
-        _function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers)]),
+        _function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers, strict=True)]),
     ]
 
 

@@ -80,9 +80,9 @@ class Walls(NamedTuple):
 
 
 class Cracks(NamedTuple):
-    """Crack table: one row a broken bond, in the order of breaking; ``count[0]`` rows are filled."""
+    """Crack table: one row a broken bond, in the order of breaking; ``filled[0]`` rows are in use."""
 
-    count: Integers
+    filled: Integers
     step: Integers
     bond: Integers
     ends: Integers

@@ -51,9 +51,7 @@ def particle_tables(
     twist[free, INVERSE_INERTIA] = 2.5 / (mass[free] * radius[free] ** 2)
     seen = twist.copy()
     seen[:, MATERIAL] = material
-    return Particles(
-        pose, twist, seen, np.zeros((n, 8)), np.zeros((n, 8)), position.copy(), np.ones(n, np.uint8)
-    )
+    return Particles(pose, twist, seen, np.zeros((n, 8)), np.zeros((n, 8)), position.copy(), np.ones(n, np.uint8))
 
 
 def bond_table(plan: BondPlan, ends: Integers, reference: Any, constants: Any, start: Any, damping: Floats) -> Bonds:
@@ -115,7 +113,7 @@ def bond_slot(bonds: Bonds, slot: int) -> Floats:
 
 def intact(bonds: Bonds) -> NDArray[np.bool_]:
     """Return which bonds still hold, (m,) by bond number; fading ones no longer count."""
-    return bond_slot(bonds, INTACT) == 1.0
+    return np.equal(bond_slot(bonds, INTACT), 1.0)
 
 
 def failure_index(bonds: Bonds) -> Floats:

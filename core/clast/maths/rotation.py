@@ -5,8 +5,6 @@ Only + − x ÷ √ are used, so compiled and plain Python agree to the bit and 
 
 from __future__ import annotations
 
-from math import sqrt
-
 from clast.maths.vec3 import Vec, add, cross, dot, scale
 
 Quat = tuple[float, float, float, float]

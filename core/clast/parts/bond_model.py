@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from clast.maths.vec3 import Vec
 from clast.parts.params import Params
 
-Numbers = NDArray[np.float64] | float
+Each = Any
+"""One number for all bonds, or an (m,) float64 array with one a bond."""
 
 
 class Strain(NamedTuple):
@@ -73,10 +74,10 @@ class BondGeometry(NamedTuple):
         Radius in m, section πR² in m², second moment of area πR⁴/4 in m⁴; one number when all bonds agree.
     """
 
-    L0: NDArray[np.float64]
-    R: Numbers
-    A: Numbers
-    I: Numbers  # noqa: E741
+    L0: Each
+    R: Each
+    A: Each
+    I: Each  # noqa: E741
 
 
 class Stiffness(NamedTuple):

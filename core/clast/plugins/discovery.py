@@ -105,9 +105,7 @@ def register(plugin: Any, source: Source, registry: Registry) -> None:
     try:
         manager.check_pending()
     except pluggy.PluginValidationError as error:
-        raise PluginError(
-            f"plugin {source.plugin!r} ({source}): {error}; the only hook is 'clast_register'"
-        ) from None
+        raise PluginError(f"plugin {source.plugin!r} ({source}): {error}; the only hook is 'clast_register'") from None
     if not manager.hook.clast_register.get_hookimpls():
         raise PluginError(
             f"plugin {source.plugin!r} ({source}) registers nothing: it needs a function "
@@ -182,8 +180,7 @@ def _check_api(plugin: Any, source: Source) -> None:
     if stated is None:
         raise PluginError(f"{who} does not state its API; add 'CLAST_API = {hookspec.API_VERSION}' to it")
     raise PluginError(
-        f"{who} is written for CLAST_API {stated}, this Clast speaks {hookspec.API_VERSION}; "
-        "update the plugin or Clast"
+        f"{who} is written for CLAST_API {stated}, this Clast speaks {hookspec.API_VERSION}; update the plugin or Clast"
     )
 
 

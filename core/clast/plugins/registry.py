@@ -225,14 +225,10 @@ class Registry:
         if kind not in KINDS:
             raise PluginError(f"{where}: {kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
         if not _NAME.fullmatch(name):
-            raise PluginError(
-                f"{where}: {name!r} is not a name for a {kind}: small letters, digits and _ only"
-            )
+            raise PluginError(f"{where}: {name!r} is not a name for a {kind}: small letters, digits and _ only")
         declared = getattr(part, "Params", None)
         if not (isinstance(declared, type) and issubclass(declared, Params)):
-            raise PluginError(
-                f"{where}: {kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params"
-            )
+            raise PluginError(f"{where}: {kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params")
         if not isinstance(getattr(part, "summary", None), str):
             raise PluginError(f"{where}: {kind} {name!r} needs 'summary', one line of text")
 

@@ -148,16 +148,16 @@ def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) ->
 
 
 def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]]) -> None:
-    world = simulation.world
-    for group, record in world._asdict().items():
+    fresh: dict[str, Any] = {}
+    for group, record in simulation.world._asdict().items():
         if group in DERIVED:
             continue
         if isinstance(record, np.ndarray):
-            world = world._replace(**{group: arrays[group]})
+            fresh[group] = arrays[group]
         else:
-            fresh = {name: np.ascontiguousarray(arrays[f"{group}/{name}"]) for name in record._fields}
-            world = world._replace(**{group: record._replace(**fresh)})
-    simulation.world = world
+            tables = {name: np.ascontiguousarray(arrays[f"{group}/{name}"]) for name in record._fields}
+            fresh[group] = record._replace(**tables)
+    simulation.world = simulation.world._replace(**fresh)
 
 
 def _settle(path: Path) -> None:

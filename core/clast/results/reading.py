@@ -41,9 +41,7 @@ def check_contents(path: Path, file: Any) -> None:
     if schema is None:
         raise unreadable(path, "it was not written by Clast: no `schema` attribute")
     if int(schema) != SCHEMA:
-        raise RunError(
-            f"{path}: written in schema {schema}, this version of Clast reads {SCHEMA}; run it again"
-        )
+        raise RunError(f"{path}: written in schema {schema}, this version of Clast reads {SCHEMA}; run it again")
     missing = [name for name in _NEEDED_GROUPS if name not in file]
     if missing:
         raise unreadable(path, f"it holds no {', '.join(missing)}")
@@ -58,9 +56,7 @@ def _busy(path: Path) -> RunError:
 
 def unreadable(path: Path, reason: str) -> RunError:
     """Build the error for a damaged file."""
-    return RunError(
-        f"{path}: cannot be read ({reason}); the file is damaged or cut short, run the scene again"
-    )
+    return RunError(f"{path}: cannot be read ({reason}); the file is damaged or cut short, run the scene again")
 
 
 def common_length(group: Any) -> dict[str, NDArray[Any]]:

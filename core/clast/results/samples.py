@@ -12,7 +12,16 @@ from clast.scene.scene import Scene
 from clast.simulation import Simulation
 
 PARTICLE_TRACK = ("position", "velocity", "spin", "force", "moment")
-BOND_TRACK = ("intact", "axial_strain", "normal_stress", "shear_stress", "torsion", "bending", "failure", "energy")
+BOND_TRACK = (
+    "intact",
+    "axial_strain",
+    "normal_stress",
+    "shear_stress",
+    "torsion",
+    "bending",
+    "failure",
+    "energy",
+)
 
 
 class Samples:

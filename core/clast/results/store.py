@@ -94,9 +94,9 @@ class Store:
     def keep_cracks(self, simulation: Simulation) -> None:
         """Bring the crack table up to date."""
         cracks, scene = simulation.world.cracks, simulation.scene
-        count = int(cracks.count[0])
+        count = int(cracks.filled[0])
         area = 0.25 * np.pi * scene.diameter[cracks.bond[:count]] ** 2
-        columns = (
+        columns: tuple[NDArray[Any], ...] = (
             cracks.step[:count] * simulation.dt,
             cracks.bond[:count],
             cracks.ends[:count, 0],

@@ -144,7 +144,7 @@ def hertz_modulus(
         return None
     near = np.abs(strain - at) <= 0.1 * at
     mean = float(force[near].mean()) if near.any() else float(np.interp(at, strain, force))
-    return mean * 0.75 * (1.0 - nu**2) / (sqrt(0.5 * height) * (0.5 * at * height) ** 1.5)
+    return float(mean * 0.75 * (1.0 - nu**2) / (sqrt(0.5 * height) * (0.5 * at * height) ** 1.5))
 
 
 def poisson(config: Any) -> float:

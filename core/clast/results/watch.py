@@ -14,7 +14,7 @@ from clast.simulation import Simulation
 LOOK_EVERY = 0.2
 
 
-class Interrupted(RunError):
+class RunInterruptedError(RunError):
     """The run was asked to stop by Ctrl-C or SIGTERM; its exit code is 128 plus the signal's number."""
 
     def __init__(self, number: int) -> None:
@@ -67,7 +67,7 @@ class Watch:
 
         Raises
         ------
-        Interrupted
+        RunInterruptedError
             After a signal.
         """
         now = time.monotonic()
@@ -77,7 +77,7 @@ class Watch:
         self.due = simulation.step + self.stride
         self.show(simulation, rate)
         if self.signal:
-            raise Interrupted(self.signal)
+            raise RunInterruptedError(self.signal)
         if now - self.saved >= self.interval:
             self.checkpoint()
             self.saved = time.monotonic()

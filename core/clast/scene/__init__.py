@@ -1,0 +1,1 @@
+"""From a config to particles, bonds and walls as plain arrays."""

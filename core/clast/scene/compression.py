@@ -40,7 +40,9 @@ class Gauge:
         line = upper - lower
         length = np.linalg.norm(line)
         if length == 0.0:
-            raise ConfigError("compression: upper and lower wall are in the same place; there is no axis to press along")
+            raise ConfigError(
+                "compression: upper and lower wall are in the same place; there is no axis to press along"
+            )
         return np.asarray(line / length)
 
     def _centre(self, k: int) -> Floats:

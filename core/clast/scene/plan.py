@@ -21,6 +21,7 @@ from clast.engine.tables import (
     no_bonds,
     particle_tables,
 )
+from clast.errors import ConfigError
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
 from clast.scene.scene import Scene
@@ -48,7 +49,11 @@ def _bond_plan(scene: Scene) -> BondPlan | None:
     if config is None or len(scene.ends) == 0:
         return None
     record = config.model.part.constants(config.model.params, scene.bond_geometry)
-    uniform = [np.ndim(v) < (1 if f.size == 1 else 2) for f, v in zip(fields(type(record)), record) for _ in range(f.size)]
+    uniform = [
+        np.ndim(v) < (1 if f.size == 1 else 2)
+        for f, v in zip(fields(type(record)), record, strict=True)
+        for _ in range(f.size)
+    ]
     return BondPlan(
         config.model.part, config.kinematics.part, tuple(uniform), config.damping > 0.0, config.fade_steps > 0
     )
@@ -76,7 +81,13 @@ def _contact_plan(scene: Scene) -> ContactPlan | None:
 
 
 def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
-    """Return every pair of materials that can touch in a scene, by index, particle first."""
+    """Return every pair of materials that can touch in a scene, by index, particle first.
+
+    Raises
+    ------
+    ConfigError
+        If the contact settings lack such a pair.
+    """
     config = scene.config
     assert config.contacts is not None
     names = list(config.materials)
@@ -88,7 +99,10 @@ def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
             a, b = config.materials[names[i]], config.materials[names[j]]
             settings = config.contacts.pair(names[i], names[j])
             if settings is None:
-                continue
+                raise ConfigError(
+                    f"contacts.pairs: {names[i]} and {names[j]} can touch but have no settings; add "
+                    f"'{names[i]}-{names[j]}' or 'default'"
+                )
             pair = MaterialPair(
                 a.young_modulus,
                 a.poisson_ratio,
@@ -161,10 +175,12 @@ def _bonds(scene: Scene, plan: Blueprint) -> tuple[Bonds, Floats]:
     constants = config.model.part.constants(config.model.params, scene.bond_geometry)
     start = kinematics.start(d, scene.length) if kinematics.start is not None else None
     damping = damping_coefficients(scene) if plan.bonds.damping else np.zeros((len(d), 4))
-    table = bond_table(
-        plan.bonds, scene.ends, kinematics.reference(d, scene.length), constants, start, damping
-    )
-    shared = [np.ravel(v) for f, v in zip(fields(type(constants)), constants) if np.ndim(v) < (1 if f.size == 1 else 2)]
+    table = bond_table(plan.bonds, scene.ends, kinematics.reference(d, scene.length), constants, start, damping)
+    shared = [
+        np.ravel(v)
+        for f, v in zip(fields(type(constants)), constants, strict=True)
+        if np.ndim(v) < (1 if f.size == 1 else 2)
+    ]
     return table, np.concatenate([*shared, np.zeros(0)]).astype(float)
 
 
@@ -184,7 +200,12 @@ def damping_coefficients(scene: Scene) -> NDArray[np.float64]:
     reduced_mass = scene.mass[i] * scene.mass[j] / (scene.mass[i] + scene.mass[j])
     reduced_inertia = inertia[i] * inertia[j] / (inertia[i] + inertia[j])
     k = bond_stiffness(scene)
-    pairs = [(k.axial, reduced_mass), (k.shear, reduced_mass), (k.torsion, reduced_inertia), (k.bending, reduced_inertia)]
+    pairs = [
+        (k.axial, reduced_mass),
+        (k.shear, reduced_mass),
+        (k.torsion, reduced_inertia),
+        (k.bending, reduced_inertia),
+    ]
     return np.column_stack([2.0 * scene.config.bonds.damping * np.sqrt(a * b) for a, b in pairs])
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
+from clast.errors import ConfigError
 from clast.parts.bond_model import BondGeometry
 from clast.parts.generator import BondList, Packing
 
@@ -64,7 +65,7 @@ class Scene:
     def bond_geometry(self) -> BondGeometry:
         """Shape of all bonds; radius, section and second moment are single numbers when all bonds agree."""
         R = 0.5 * self.diameter
-        if len(R) and np.all(R == R[0]):
+        if len(R) and np.all(R[0] == R):
             R = R[0]
         return BondGeometry(self.length, R, np.pi * R**2, 0.25 * np.pi * R**4)
 
@@ -78,8 +79,7 @@ def build_scene(config: SceneConfig) -> Scene:
         From the generators, and for bonds without a bond model.
     """
     packings = [chosen.part.generate(chosen.params, config.folder) for chosen in config.generators]
-    names = list(config.materials)
-    material = np.array([names.index(name) for packing in packings for name in packing.material], np.int64)
+    material = _materials(config, packings)
     radius = np.concatenate([packing.radius for packing in packings])
     density = np.array([each.density for each in config.materials.values()])[material]
     position = np.concatenate([packing.position for packing in packings])
@@ -99,8 +99,20 @@ def build_scene(config: SceneConfig) -> Scene:
         diameter=bonds.diameter,
         length=_lengths(bonds, position),
         relieved=np.concatenate([np.full(len(p.radius), p.relieved) for p in packings]),
-        report={f"{k + 1}. {chosen.name}": p.report for k, (chosen, p) in enumerate(zip(config.generators, packings))},
+        report={
+            f"{k + 1}. {chosen.name}": p.report
+            for k, (chosen, p) in enumerate(zip(config.generators, packings, strict=True))
+        },
     )
+
+
+def _materials(config: SceneConfig, packings: list[Packing]) -> Integers:
+    names = {name: k for k, name in enumerate(config.materials)}
+    wanted = [name for packing in packings for name in packing.material]
+    unknown = sorted(set(wanted) - set(names))
+    if unknown:
+        raise ConfigError(f"particles: material {unknown[0]!r} is not among the scene's materials ({', '.join(names)})")
+    return np.array([names[name] for name in wanted], np.int64)
 
 
 def _joined_grains(packings: list[Packing]) -> Integers:
@@ -124,9 +136,7 @@ def _bonds(
     first = 0
     for packing in packings:
         if packing.bonds is not None and config.bonds is not None:
-            lists.append(
-                BondList(packing.bonds.ends + first, packing.bonds.diameter, packing.bonds.length)
-            )
+            lists.append(BondList(packing.bonds.ends + first, packing.bonds.diameter, packing.bonds.length))
         first += len(packing.radius)
     if config.bonds is not None and config.bonds.between is not None:
         lists.append(_near_bonds(config, position, radius, material, grain, lists))

@@ -1,0 +1,1 @@
+"""Body forces, one per file."""

@@ -1,0 +1,1 @@
+"""Bond kinematics, one per file."""

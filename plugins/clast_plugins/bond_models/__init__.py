@@ -1,0 +1,1 @@
+"""Bond models, one per file."""

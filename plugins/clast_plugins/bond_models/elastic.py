@@ -9,7 +9,7 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import Number, Stress
 from clast.maths.vec3 import norm, scale
-from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Numbers, Stiffness, Strain
+from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Stiffness, Strain
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
@@ -51,14 +51,14 @@ class Elastic(Params):
 class Constants(NamedTuple):
     """Numbers of Model 1; ``per_L`` is 1/L0, W and W_t the section moduli I/R and J/R."""
 
-    per_L: Numbers
-    EA: Numbers
-    GA: Numbers
-    GJ: Numbers
-    EI: Numbers
-    A: Numbers
-    W: Numbers
-    W_t: Numbers
+    per_L: float
+    EA: float
+    GA: float
+    GJ: float
+    EI: float
+    A: float
+    W: float
+    W_t: float
     per_normal_strength: float
     per_shear_strength: float
     compression_sign: float

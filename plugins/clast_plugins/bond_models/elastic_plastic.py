@@ -10,7 +10,7 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import Number, Stress
 from clast.maths.vec3 import Vec, dot, scale, sub
-from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Numbers, Stiffness, Strain
+from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Stiffness, Strain
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
@@ -51,12 +51,12 @@ class ElasticPlastic(Params):
 class Constants(NamedTuple):
     """Numbers of Model 2; ``per_L`` is 1/L0."""
 
-    per_L: Numbers
+    per_L: float
     E: float
     G: float
-    A: Numbers
-    GJ: Numbers
-    EI: Numbers
+    A: float
+    GJ: float
+    EI: float
     yield_strain: float
     yield_shear_strain: float
     per_tensile_limit: float

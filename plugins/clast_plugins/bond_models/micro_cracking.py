@@ -10,7 +10,7 @@ from clast import hookimpl
 from clast.config.quantities import Number, Stress
 from clast.maths.counter_random import uniform
 from clast.maths.vec3 import Vec, add, dot, norm, scale, sub
-from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Numbers, RandomKey, Stiffness, Strain
+from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, RandomKey, Stiffness, Strain
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
@@ -49,13 +49,16 @@ class MicroCracking(Params):
     compressive_break: Annotated[
         Number, Field(ge=0, description="K: also breaks at an axial strain below -K epsilon_max; 0: never")
     ] = 0.0
-    weakening_factor: Annotated[Number, Field(gt=0, le=1, description="w: the drop leaves w U(0, 1) of the stress")] = 1.0
-    fixed_drop: Annotated[
-        Number | None, Field(gt=0, lt=1, description="eta for every drop instead of random ones")
-    ] = None
+    weakening_factor: Annotated[Number, Field(gt=0, le=1, description="w: the drop leaves w U(0, 1) of the stress")] = (
+        1.0
+    )
+    fixed_drop: Annotated[Number | None, Field(gt=0, lt=1, description="eta for every drop instead of random ones")] = (
+        None
+    )
     shear_drops: Annotated[bool, Field(description="whether the shear stress drops too")] = True
     drop_from: Annotated[
-        Literal["yield", "trial"], Field(description="the stress that drops: sigma_y, or the trial stress of the step")
+        Literal["yield", "trial"],
+        Field(description="the stress that drops: sigma_y, or the trial stress of the step"),
     ] = "yield"
     seed: Annotated[int, Field(ge=0, lt=2**32, description="Seed of the random drops")] = 1
 
@@ -63,12 +66,12 @@ class MicroCracking(Params):
 class Constants(NamedTuple):
     """Numbers of Model 3; ``per_L`` is 1/L0, ``fixed_drop`` is negative for random drops."""
 
-    per_L: Numbers
+    per_L: float
     E: float
     G: float
-    A: Numbers
-    GJ: Numbers
-    EI: Numbers
+    A: float
+    GJ: float
+    EI: float
     yield_stress: float
     per_normal_yield: float
     per_shear_yield: float
@@ -163,17 +166,13 @@ def on_event(strain: Strain, c: Constants, state: State, key: RandomKey) -> Stat
         share = remaining_share(c, key, NORMAL, state.normal_drops)
         drop = (1.0 - share) * (abs(sigma) if c.from_trial > 0.0 else c.yield_stress)
         opening = (drop if sigma > 0.0 else -drop) / c.E
-        return State(
-            state.axial_plastic + opening, state.shear_plastic, state.normal_drops + 1.0, state.shear_drops
-        )
+        return State(state.axial_plastic + opening, state.shear_plastic, state.normal_drops + 1.0, state.shear_drops)
     tau = shear_stress(strain, c, state)
     size = norm(tau)
     share = remaining_share(c, key, SHEAR, state.shear_drops)
     drop = (1.0 - share) * (size if c.from_trial > 0.0 else c.yield_stress)
     sliding = scale(drop / (c.G * size), tau)
-    return State(
-        state.axial_plastic, add(state.shear_plastic, sliding), state.normal_drops, state.shear_drops + 1.0
-    )
+    return State(state.axial_plastic, add(state.shear_plastic, sliding), state.normal_drops, state.shear_drops + 1.0)
 
 
 def failure(strain: Strain, load: BondLoad, c: Constants, state: State) -> float:

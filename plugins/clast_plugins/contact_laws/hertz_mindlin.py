@@ -54,7 +54,8 @@ class HertzMindlin(Params):
     """
 
     coulomb_limit: Annotated[
-        Literal["elastic", "total", "musen"], Field(description="the normal force that limits sliding and rolling")
+        Literal["elastic", "total", "musen"],
+        Field(description="the normal force that limits sliding and rolling"),
     ] = "elastic"
     tension_cutoff: Annotated[bool, Field(description="whether damping may not make a leaving contact pull")] = False
     rolling: Annotated[
@@ -164,9 +165,7 @@ def limiting_force(touch: Touch, c: Constants, F_n: float, chosen: Choices) -> f
     return max(F_n, 0.0)
 
 
-def sliding(
-    touch: Touch, c: Constants, xi_old: Vec, F_lim: float, dt: float, chosen: Choices
-) -> tuple[Vec, Vec]:
+def sliding(touch: Touch, c: Constants, xi_old: Vec, F_lim: float, dt: float, chosen: Choices) -> tuple[Vec, Vec]:
     """Return the tangential force on i in N and the tangential displacement in m, Coulomb's limit kept."""
     v_t = across(touch.velocity, touch.normal)
     k_t = 8.0 * c.G * contact_radius(touch)
@@ -202,9 +201,7 @@ def against(spin: Vec, size: float) -> Vec:
     return scale(-size / rate if rate > 0.0 else 0.0, spin)
 
 
-def load(
-    touch: Touch, c: Constants, history: History, dt: float, chosen: Choices
-) -> tuple[ContactLoad, History]:
+def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choices) -> tuple[ContactLoad, History]:
     """Return what the contact does to body j, and its new history."""
     F_n = normal_force(touch, c, chosen)
     F_lim = limiting_force(touch, c, F_n, chosen)

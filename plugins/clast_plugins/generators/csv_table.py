@@ -111,8 +111,7 @@ def _lines(path: Path, header: str) -> list[str]:
         raise ConfigError(f"{path}: there is no such file{hint}; check the path in the scene") from None
     except UnicodeDecodeError as error:
         raise ConfigError(
-            f"{path}: not a text file (byte {error.start} is no UTF-8); "
-            f"a CSV file with the header '{header}' is needed"
+            f"{path}: not a text file (byte {error.start} is no UTF-8); a CSV file with the header '{header}' is needed"
         ) from None
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from None
@@ -137,9 +136,7 @@ def _split(path: Path, lines: list[str]) -> Table:
         if not columns:
             columns += cells
         elif len(cells) > len(columns):
-            table.wrong(
-                reader.line_num, f"{len(cells)} values for {len(columns)} columns ({','.join(columns)})"
-            )
+            table.wrong(reader.line_num, f"{len(cells)} values for {len(columns)} columns ({','.join(columns)})")
         else:
             table.rows.append((reader.line_num, dict(zip(columns, cells, strict=False))))
 
@@ -150,13 +147,8 @@ def _check_header(table: Table, required: Sequence[str], optional: Sequence[str]
     known = {*required, *optional}
     for name in table.columns:
         if name not in known:
-            table.wrong(
-                line, f"column {name!r} is not known; {suggestion(name, known)}; the header is '{form}'"
-            )
-        elif (
-            table.columns.count(name) > 1
-            and f"column {name!r} stands twice" not in dict(table.problems).values()
-        ):
+            table.wrong(line, f"column {name!r} is not known; {suggestion(name, known)}; the header is '{form}'")
+        elif table.columns.count(name) > 1 and f"column {name!r} stands twice" not in dict(table.problems).values():
             table.wrong(line, f"column {name!r} stands twice")
     for name in required:
         if name not in table.columns:

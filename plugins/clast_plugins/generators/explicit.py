@@ -46,9 +46,7 @@ class ExplicitBond(Params):
 
     between: Annotated[tuple[int, int], Field(description="Places of the two particles in the list, from 0")]
     diameter: Annotated[Length, Field(gt=0, description="Diameter of the bond")]
-    length: Annotated[
-        Length | None, Field(gt=0, description="Initial length; by default the centres' distance")
-    ] = None
+    length: Annotated[Length | None, Field(gt=0, description="Initial length; by default the centres' distance")] = None
 
 
 class Explicit(Params):
@@ -81,13 +79,9 @@ def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[Explic
         if missing:
             problems.append(f"bonds.{k} names particle {missing[0]}; there are 0 to {len(particles) - 1}")
         elif i == j:
-            problems.append(
-                f"bonds.{k} connects particle {i} with itself; two different particles are needed"
-            )
+            problems.append(f"bonds.{k} connects particle {i} with itself; two different particles are needed")
         elif first != k:
-            problems.append(
-                f"bonds.{k} connects particles {i} and {j}, as bonds.{first} does; remove one of them"
-            )
+            problems.append(f"bonds.{k} connects particles {i} and {j}, as bonds.{first} does; remove one of them")
         elif bond.length is None and particles[i].position == particles[j].position:
             problems.append(f"bonds.{k}: particles {i} and {j} have one centre; give the bond a 'length'")
     return problems

@@ -41,9 +41,7 @@ class FlattenedAgglomerate(AgglomerateParams):
     428
     """
 
-    volume_diameter: Annotated[
-        Length, Field(gt=0, description="Diameter of the sphere before it is flattened")
-    ]
+    volume_diameter: Annotated[Length, Field(gt=0, description="Diameter of the sphere before it is flattened")]
     height: Annotated[Length, Field(gt=0, description="Distance of the two plates, along z")]
 
     @model_validator(mode="after")
@@ -77,9 +75,7 @@ def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """
     count = number_of_primaries(params, params.volume_diameter)
-    words = (
-        f"a sphere of {millimetres(params.volume_diameter)} cut to a height of {millimetres(params.height)}"
-    )
+    words = f"a sphere of {millimetres(params.volume_diameter)} cut to a height of {millimetres(params.height)}"
     packing, reached = make_agglomerate(params, Body(params.volume_diameter, params.height, words), count)
     return replace(packing, report={"primaries": count, **_shape(params, packing), **reached})
 

@@ -27,9 +27,7 @@ class FromFile(Params):
     With a file of bonds, particles that bonds connect form a grain; without one, all particles are one grain.
     """
 
-    particles: Annotated[
-        str, Field(min_length=1, description="CSV file with id,x,y,z,radius[,material] in m")
-    ]
+    particles: Annotated[str, Field(min_length=1, description="CSV file with id,x,y,z,radius[,material] in m")]
     bonds: Annotated[
         str | None,
         Field(min_length=1, description="CSV file with i,j,diameter[,initial_length] in m; none: no bonds"),
@@ -68,9 +66,7 @@ def read_particles(path: Path, material: str | None) -> ParticleTable:
         measures.append((x, y, z, table.number(line, row, "radius", above=0.0)))
         name = row.get("material") or material
         if name is None:
-            table.wrong(
-                line, "the row names no material; add a column 'material', or 'material' to the scene"
-            )
+            table.wrong(line, "the row names no material; add a column 'material', or 'material' to the scene")
         materials.append(name or "")
     table.refuse_problems()
     found = np.array(measures)
@@ -100,9 +96,7 @@ def read_bonds(path: Path, particles: ParticleTable) -> BondList:
             continue
         ends.append((i, j))
         if i == j:
-            table.wrong(
-                line, f"a bond from particle {row['i']} to itself; two different particles are needed"
-            )
+            table.wrong(line, f"a bond from particle {row['i']} to itself; two different particles are needed")
             continue
         new_bond(line, " and ".join(str(particles.ids[end]) for end in sorted((i, j))))
         if not given and np.array_equal(particles.position[i], particles.position[j]):

@@ -1,0 +1,1 @@
+"""Neighbour searches, one per file."""

@@ -29,7 +29,8 @@ def find_pairs(position: NDArray[np.float64], reach: NDArray[np.float64]) -> NDA
         return np.zeros((0, 2), np.uint32)
     low = position.min(axis=0)
     extent = position.max(axis=0) - low
-    width = max(2.0 * float(reach.max()), 1e-300)
+    # a little wider, so that rounding never puts a pair two cells apart
+    width = max(2.0 * float(reach.max()) * (1.0 + 1e-6), 1e-300)
     while np.prod(np.floor(extent / width) + 1.0) > 2 * n + 64:
         width *= 1.25
     shape = (np.floor(extent / width) + 1.0).astype(np.int64)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from clast.engine.compiler import compiled
 
-@njit(cache=True, error_model="numpy")  # type: ignore[misc,unused-ignore]
+
+@compiled
 def count_or_fill(
     position: NDArray[np.float64],
     reach: NDArray[np.float64],

@@ -1,0 +1,1 @@
+"""Walls, one per file."""

@@ -15,9 +15,7 @@ def registry() -> Registry:
     fakes = Registry()
     with fakes.registering(Source("fakes", "fake-distribution", "1.2")):
         fakes.generator("ball", Generator("A ball.", Ball, None, lambda params, folder: Prediction(100, 600)))
-        fakes.generator(
-            "explicit", Generator("Written.", Explicit, None, lambda p, f: Prediction(len(p.grains)))
-        )
+        fakes.generator("explicit", Generator("Written.", Explicit, None, lambda p, f: Prediction(len(p.grains))))
         for add, name, declared in [
             (fakes.bond_model, "elastic", Elastic),
             (fakes.bond_kinematics, "total", Nothing),

@@ -27,9 +27,7 @@ def test_the_paper_s_rule_is_evaluated_for_two_touching_primaries(load, registry
         return Stiffness(axial, axial / (2 * (1 + nu)), axial, axial)
 
     object.__setattr__(part, "stiffness", stiffness)
-    told = forecast(
-        load(("5 MPa", "5 TPa"), ("step: 5e-7", "step: {rule: paper, factor: 0.1}\n  mass_scaling: 4"))
-    )
+    told = forecast(load(("5 MPa", "5 TPa"), ("step: 5e-7", "step: {rule: paper, factor: 0.1}\n  mass_scaling: 4")))
     R = 0.125e-3
     mass = 4 * 2500 * 4 / 3 * pi * R**3
     assert told.time_step == pytest.approx(0.1 * 2 * sqrt(mass / (E * pi * R**2 / (2 * R))))

@@ -13,8 +13,7 @@ def _said(load, **options):
 
 def test_an_override_replaces_a_value_and_is_named_in_messages(load):
     assert (
-        load(overrides=["particles.seed=3", "walls.upper.point.2=2 mm"]).walls["upper"].shape.params.point[2]
-        == 0.002
+        load(overrides=["particles.seed=3", "walls.upper.point.2=2 mm"]).walls["upper"].shape.params.point[2] == 0.002
     )
     said = _said(load, overrides=["walls.upper.point.2=2 MPa"])
     assert said.startswith("--set walls.upper.point.2=2 MPa: walls.upper.point.2: '2 MPa' is a stress")

@@ -48,15 +48,12 @@ def test_the_time_step_is_a_time_or_a_rule(load):
     assert load(("step: 5e-7", "mass_scaling: 2")).time.step == StepRule(rule="paper", factor=0.1)
     assert load(("5e-7", "{rule: paper, factor: 0.3}")).time.step.factor == 0.3
     assert "time.step: must be greater than 0" in _said(load, ("5e-7", "0"))
-    assert "time.step.rule: 'papper' is not allowed; did you mean 'paper'?" in _said(
-        load, ("5e-7", "{rule: papper}")
-    )
+    assert "time.step.rule: 'papper' is not allowed; did you mean 'paper'?" in _said(load, ("5e-7", "{rule: papper}"))
 
 
 def test_a_bare_name_stands_for_a_part_without_parameters(load):
     assert (
-        load(overrides=["integrator=leapfrog"]).integrator
-        == load(overrides=["integrator={type: leapfrog}"]).integrator
+        load(overrides=["integrator=leapfrog"]).integrator == load(overrides=["integrator={type: leapfrog}"]).integrator
     )
 
 
@@ -67,10 +64,7 @@ def test_the_checkpoint_interval_may_be_minutes_or_hours(load):
 
 def test_an_unknown_key_is_told_with_place_path_and_nearest_name(load):
     said = _said(load, ("  primary_diameter", "  primary_diametre"))
-    assert (
-        "scene.yaml:7:3: particles.primary_diametre: not a known key; did you mean 'primary_diameter'?"
-        in said
-    )
+    assert "scene.yaml:7:3: particles.primary_diametre: not a known key; did you mean 'primary_diameter'?" in said
     assert "scene.yaml:4:1: particles.primary_diameter: this key is missing: Diameter of a primary" in said
 
 
@@ -86,10 +80,7 @@ def test_an_unknown_key_inside_a_part_s_list_is_told_too(load):
 
 def test_an_unknown_part_is_told_with_the_nearest_name(load):
     said = _said(load, ("type: elastic", "type: elastik"))
-    assert (
-        "scene.yaml:11:11: bonds.model.type: no bond model is named 'elastik'; did you mean 'elastic'?"
-        in said
-    )
+    assert "scene.yaml:11:11: bonds.model.type: no bond model is named 'elastik'; did you mean 'elastic'?" in said
 
 
 def test_a_wrong_dimension_is_told_in_plain_words(load):
@@ -176,9 +167,7 @@ def test_what_does_not_fit_together_is_refused(load, old, new, said):
 
 
 def test_pairs_are_found_in_either_order_and_not_told_twice(load):
-    scene = load(
-        ("default: {restitution: 0.5}", "steel-glass: {restitution: 0.7}\n    default: {restitution: 0.5}")
-    )
+    scene = load(("default: {restitution: 0.5}", "steel-glass: {restitution: 0.7}\n    default: {restitution: 0.5}"))
     assert scene.contacts.pair("glass", "steel").restitution == 0.7
     assert scene.contacts.pair("steel", "glass").restitution == 0.7
     assert scene.contacts.pair("glass", "glass").restitution == 0.5
@@ -209,9 +198,7 @@ def test_a_changed_scene_is_validated_and_leaves_the_first_alone(load):
     changed = scene.changed({"particles.seed": 3, "particles.primary_diameter": "0.2 mm"})
     assert changed.generators[0].params.seed == 3
     assert scene.generators[0].params.seed == 1
-    with pytest.raises(
-        ConfigError, match=r"change of 'particles.seed': particles.seed: must be greater than"
-    ):
+    with pytest.raises(ConfigError, match=r"change of 'particles.seed': particles.seed: must be greater than"):
         scene.changed({"particles.seed": -1})
     with pytest.raises(ConfigError, match="did you mean 'particles'"):
         scene.changed({"particle.seed": 1})
@@ -261,9 +248,7 @@ def _paths(value, above=()):
 
 
 _DATA = parse_document(SCENE).data
-_JUNK = st.sampled_from(
-    [None, True, 0, -1, 1e400, "", "x", "3 mm", "3 MPa", [], [1, 2], {}, {"type": 1}, {"a": {}}]
-)
+_JUNK = st.sampled_from([None, True, 0, -1, 1e400, "", "x", "3 mm", "3 MPa", [], [1, 2], {}, {"type": 1}, {"a": {}}])
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])

@@ -56,9 +56,7 @@ def test_a_broken_plugin_does_not_stop_the_others_and_is_told_when_a_part_is_mis
     assert registry.get("wall", "tube")
     with pytest.raises(PluginError) as caught:
         registry.get("wall", "fancy_wall")
-    assert "plugin 'a' (other 2.0) could not be loaded: ImportError: no such module: fancy" in str(
-        caught.value
-    )
+    assert "plugin 'a' (other 2.0) could not be loaded: ImportError: no such module: fancy" in str(caught.value)
 
 
 def test_a_hook_that_raises_is_told_with_the_plugin_s_name():
@@ -66,9 +64,7 @@ def test_a_hook_that_raises_is_told_with_the_plugin_s_name():
     def clast_register(registry):
         raise KeyError("x")
 
-    registry = loaded(
-        FakeEntryPoint("a", lambda: SimpleNamespace(clast_register=clast_register, CLAST_API=1))
-    )
+    registry = loaded(FakeEntryPoint("a", lambda: SimpleNamespace(clast_register=clast_register, CLAST_API=1)))
     assert "raised by clast_register of plugin 'a' (other 2.0)" in registry.failures[0].error.__notes__[0]
 
 

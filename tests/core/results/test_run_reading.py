@@ -49,9 +49,7 @@ def test_frame_is_read_as_written(folder: Path, k: int) -> None:
     written = small_grain().frames
     with open_run(folder) as run:
         frame = run.frame(k)
-    assert (frame.time, frame.step, frame.strain) == tuple(
-        written[name][k] for name in ("time", "step", "strain")
-    )
+    assert (frame.time, frame.step, frame.strain) == tuple(written[name][k] for name in ("time", "step", "strain"))
     for name in ("position", "velocity", "bond_intact", "bond_stress", "bond_failure", "wall_displacement"):
         np.testing.assert_array_equal(getattr(frame, name), written[name][k])
     assert frame.bond_intact.dtype == bool

@@ -17,9 +17,7 @@ GRAIN_A = Path(__file__).parents[2] / "data" / "musen" / "grain_a"
 
 
 def every_gap(x: np.ndarray, r: np.ndarray) -> dict[tuple[int, int], float]:
-    return {
-        (i, j): math.dist(x[i], x[j]) - (r[i] + r[j]) for i in range(len(x)) for j in range(i + 1, len(x))
-    }
+    return {(i, j): math.dist(x[i], x[j]) - (r[i] + r[j]) for i in range(len(x)) for j in range(i + 1, len(x))}
 
 
 @settings(max_examples=60, deadline=None)
@@ -44,9 +42,7 @@ def test_a_bond_is_never_thicker_than_its_smaller_particle(seed: int, diameter: 
     x, r = draw.uniform(-1, 1, (12, 3)), draw.uniform(0.1, 1.0, 12)
     bonds = bond_neighbours(x, r, max_gap=1.0, diameter=diameter)
     smaller = 2 * r[bonds.ends].min(axis=1)
-    np.testing.assert_array_equal(
-        bonds.diameter, smaller if diameter is None else np.minimum(smaller, diameter)
-    )
+    np.testing.assert_array_equal(bonds.diameter, smaller if diameter is None else np.minimum(smaller, diameter))
     assert np.isnan(bonds.length).all()
 
 

@@ -60,7 +60,5 @@ def test_the_cut_sphere_is_the_integral_of_its_slices(diameter: float, share: fl
     height = share * diameter
     z, weight = np.polynomial.legendre.leggauss(4)
     slices = math.pi * (diameter**2 / 4 - (height / 2 * z) ** 2)
-    assert cut_sphere_volume(diameter, height) == pytest.approx(
-        height / 2 * float(weight @ slices), rel=1e-12
-    )
+    assert cut_sphere_volume(diameter, height) == pytest.approx(height / 2 * float(weight @ slices), rel=1e-12)
     assert cut_sphere_volume(diameter, height) <= sphere_volume(diameter) * (1 + 1e-12)

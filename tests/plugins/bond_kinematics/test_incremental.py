@@ -145,7 +145,15 @@ def axis_angle(a: Vec) -> tuple[Vec, float]:
 
 
 @settings(max_examples=60, deadline=None)
-@given(n=directions(), v=vectors(), w_i=vectors(), w_j=vectors(), slip=vectors(0.1), turn=vectors(0.1), q=rotations())
+@given(
+    n=directions(),
+    v=vectors(),
+    w_i=vectors(),
+    w_j=vectors(),
+    slip=vectors(0.1),
+    turn=vectors(0.1),
+    q=rotations(),
+)
 def test_a_rotated_world_gives_rotated_loads(n, v, w_i, w_j, slip, turn, q):
     d = scale(LENGTH, n)
     here = step(moving(d, v, w_i, w_j), strained(d, slip, turn))[2]

@@ -63,9 +63,7 @@ def stiff(strain: Strain) -> BondLoad:
 
 def energy(pose: Pose) -> float:
     e, _ = strain_of(pose)
-    return 0.5 * (
-        3.0 * e.axial**2 + 1.7 * dot(e.shear, e.shear) + 0.6 * e.twist**2 + 0.9 * dot(e.bending, e.bending)
-    )
+    return 0.5 * (3.0 * e.axial**2 + 1.7 * dot(e.shear, e.shear) + 0.6 * e.twist**2 + 0.9 * dot(e.bending, e.bending))
 
 
 def loads(pose: Pose) -> EndLoads:
@@ -104,7 +102,12 @@ def test_force_and_moments_are_minus_the_gradient_of_one_energy(pose):
 @given(pose=poses())
 def test_a_bond_neither_pushes_nor_turns_the_pair_as_a_whole(pose):
     force, moment_i, moment_j = ends = loads(pose)
-    assert_close(add(add(moment_i, moment_j), cross(pose.d, force)), REST, 1e-12, size(ends) * (1.0 + dot(pose.d, pose.d)))
+    assert_close(
+        add(add(moment_i, moment_j), cross(pose.d, force)),
+        REST,
+        1e-12,
+        size(ends) * (1.0 + dot(pose.d, pose.d)),
+    )
 
 
 @settings(max_examples=100, deadline=None)

@@ -86,7 +86,12 @@ def test_the_stiffness_is_the_slope_of_the_load(name):
     told = model.stiffness(model.Params(**WRITTEN[name][1]), GEOMETRY)
     small = Strain(1e-6 * L0, (0.0, 1e-6 * L0, 0.0), 1e-6, (0.0, 0.0, 1e-6))
     load = model.load(small, c, start)
-    found = (load.normal / small.axial, load.shear[1] / (1e-6 * L0), load.torsion / 1e-6, load.bending[2] / 1e-6)
+    found = (
+        load.normal / small.axial,
+        load.shear[1] / (1e-6 * L0),
+        load.torsion / 1e-6,
+        load.bending[2] / 1e-6,
+    )
     assert found == pytest.approx([float(k) for k in told], rel=1e-13)
 
 

@@ -162,8 +162,18 @@ def test_without_shear_drops_the_shear_stress_is_not_limited():
 CRITICAL = {
     "elastic in tension": (law, "elastic", stretch(STRENGTH / E), "tension"),
     "elastic in shear": (law, "elastic", stretch(0.0, SHEAR_STRENGTH / G), "shear"),
-    "elastic in bending": (law, "elastic", Strain(0.0, (0, 0, 0), 0.0, (0.0, STRENGTH * L0 / (E * R), 0.0)), "tension"),
-    "elastic in torsion": (law, "elastic", Strain(0.0, (0, 0, 0), -SHEAR_STRENGTH * L0 / (G * R), (0, 0, 0)), "shear"),
+    "elastic in bending": (
+        law,
+        "elastic",
+        Strain(0.0, (0, 0, 0), 0.0, (0.0, STRENGTH * L0 / (E * R), 0.0)),
+        "tension",
+    ),
+    "elastic in torsion": (
+        law,
+        "elastic",
+        Strain(0.0, (0, 0, 0), -SHEAR_STRENGTH * L0 / (G * R), (0, 0, 0)),
+        "shear",
+    ),
     "absolute in compression": (law, "elastic, absolute", stretch(-STRENGTH / E), "tension"),
     "plastic strain": (law, "elastic_plastic", stretch(BREAKAGE), "strain in tension"),
     "plastic K": (law, "elastic_plastic, K", stretch(-2.0 * BREAKAGE), "strain in compression"),

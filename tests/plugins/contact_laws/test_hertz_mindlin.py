@@ -24,7 +24,15 @@ from tests.support.contacts import (
     touches,
     turned,
 )
-from tests.support.strategies import assert_close, assert_turned, directions, negated, numbers, rotations, vectors
+from tests.support.strategies import (
+    assert_close,
+    assert_turned,
+    directions,
+    negated,
+    numbers,
+    rotations,
+    vectors,
+)
 
 ELASTIC_ONLY = Features(damping=False, sliding=False, rolling=False)
 each_limit = pytest.mark.parametrize("limit", LIMITS)
@@ -95,8 +103,9 @@ def test_a_rotated_world_gives_rotated_loads(limit, rolling, drawn, q):
     law = contact(coulomb_limit=limit, rolling=rolling)
     told, kept = law.load(touch, xi)
     there, turned_xi = law.load(turned(touch, q), turned(touch._replace(normal=xi), q).normal)
-    assert_turned(there.force, told.force, q, norm(told.force) + 1e-12)
-    assert_turned(turned_xi, kept, q, norm(kept) + DT)
+    # forces may be small differences of large ones
+    assert_turned(there.force, told.force, q, norm(told.force) + hertz(touch), 1e-8)
+    assert_turned(turned_xi, kept, q, norm(kept) + DT, 1e-8)
     stopping = (norm(touch.spin_i) + norm(touch.spin_j)) / (touch.inverse_inertia * DT)
     for a, b in ((there.torque_i, told.torque_i), (there.torque_j, told.torque_j)):
         assert_turned(a, b, q, norm(b) + stopping)
@@ -225,5 +234,3 @@ def test_with_tension_cutoff_a_contact_never_pulls(touch, n, rate):
     free = dot(contact(features=smooth).load(leaving)[0].force, n)
     cut = dot(contact(features=smooth, tension_cutoff=True).load(leaving)[0].force, n)
     assert cut == pytest.approx(max(free, 0.0), rel=1e-12, abs=1e-300)
-
-

@@ -20,9 +20,7 @@ def particle(x: float, **more: Any) -> dict[str, Any]:
 
 
 def scene(*particles: dict[str, Any], bonds: Any = (), **more: Any) -> Explicit:
-    return Explicit.model_validate(
-        {"particles": list(particles), "material": "glass", "bonds": list(bonds), **more}
-    )
+    return Explicit.model_validate({"particles": list(particles), "material": "glass", "bonds": list(bonds), **more})
 
 
 def test_particles_are_taken_as_written() -> None:
@@ -99,9 +97,7 @@ def test_a_particle_needs_a_material_and_a_scene_a_particle() -> None:
         scene()
 
 
-@pytest.mark.parametrize(
-    "wrong", [{"radius": "-1 mm"}, {"radius": "1 s"}, {"position": [0, 0]}, {"colour": "red"}]
-)
+@pytest.mark.parametrize("wrong", [{"radius": "-1 mm"}, {"radius": "1 s"}, {"position": [0, 0]}, {"colour": "red"}])
 def test_a_wrong_particle_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValidationError):
         scene({**particle(0), **wrong})

@@ -34,9 +34,7 @@ def test_validating_and_predicting_imports_neither_scipy_nor_numba() -> None:
         "part.predict(part.SphericalAgglomerate(**given), Path())\n"
         "print(sorted({'scipy', 'numba', 'pandas'} & set(sys.modules)))\n"
     )
-    ran = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True, env=_environment()
-    )
+    ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, env=_environment())
     assert ran.stdout.strip() == "[]"
 
 

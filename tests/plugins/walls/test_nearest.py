@@ -70,7 +70,13 @@ def test_no_point_of_a_plate_is_nearer_than_the_nearest_point_which_lies_on_it(p
 
 
 @settings(max_examples=60, deadline=None)
-@given(n=directions(), radius=numbers(0.1, 2.0), out=numbers(0.0, 2.0), height=numbers(-2.0, 2.0), turn=numbers(0, 6))
+@given(
+    n=directions(),
+    radius=numbers(0.1, 2.0),
+    out=numbers(0.0, 2.0),
+    height=numbers(-2.0, 2.0),
+    turn=numbers(0, 6),
+)
 def test_beside_a_plate_the_nearest_point_is_on_the_rim(n, radius, out, height, turn):
     assume(out > 1e-6)
     e1, e2 = axes(n)
@@ -120,7 +126,11 @@ def test_on_the_axis_of_a_cylinder_no_direction_is_preferred():
 
 @settings(max_examples=30, deadline=None)
 @given(
-    q=rotations(), x=vectors(3.0), radius=st.one_of(st.none(), numbers(0.2, 2.0)), n=directions(), point=vectors()
+    q=rotations(),
+    x=vectors(3.0),
+    radius=st.one_of(st.none(), numbers(0.2, 2.0)),
+    n=directions(),
+    point=vectors(),
 )
 def test_a_rotated_world_gives_the_same_distance_in_a_rotated_direction(q, x, radius, n, point):
     here = plane.nearest(plane.shape(plane.Plane(point=point, normal=n, radius=radius)), x)

@@ -79,7 +79,11 @@ def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> 
 @inlined
 def vector(scratch: Floats, slot: int, lane: int) -> tuple[float, float, float]:
     """Read three slots of a lane."""
-    return (scratch[slot * LANES + lane], scratch[(slot + 1) * LANES + lane], scratch[(slot + 2) * LANES + lane])
+    return (
+        scratch[slot * LANES + lane],
+        scratch[(slot + 1) * LANES + lane],
+        scratch[(slot + 2) * LANES + lane],
+    )
 
 
 @inlined
@@ -148,9 +152,7 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
 
 
 @routine
-def settle_events(
-    scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, ...], key: RandomKey
-) -> None:
+def settle_events(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, ...], key: RandomKey) -> None:
     """Carry out the discrete events that are due in one lane, then compute its loads again."""
     strain, _, _ = bond_measure(
         read_motion(scratch, lane), read_reference(data, lane), read_kinematic_state(data, lane), 0.0
@@ -185,8 +187,8 @@ def log_crack(
     constants = read_constants(uniforms, data, lane)
     state = read_bond_state(data, lane)
     load = bond_load(strain, constants, state)
-    row = cracks.count[0]
-    cracks.count[0] = row + 1
+    row = cracks.filled[0]
+    cracks.filled[0] = row + 1
     cracks.step[row] = step
     cracks.bond[row] = bond
     cracks.ends[row, 0] = i
@@ -217,7 +219,13 @@ def scatter(particles: Particles, i: int, j: int, scratch: Floats, lane: int, sh
 
 @routine
 def sweep_bonds(
-    bonds: Bonds, particles: Particles, cracks: Cracks, numbers: Numbers, scratch: Floats, dt: float, step: int
+    bonds: Bonds,
+    particles: Particles,
+    cracks: Cracks,
+    numbers: Numbers,
+    scratch: Floats,
+    dt: float,
+    step: int,
 ) -> None:
     """Add the loads of all bonds to the particles; break what fails."""
     uniforms = read_uniforms(numbers.bond_uniforms)

@@ -167,19 +167,25 @@ def separated(particles: Particles, pairs: Pairs, k: int) -> bool:
     s = pose[i, RADIUS] + pose[j, RADIUS]
     if RESTS:
         s -= pairs.rest[k]
-    return dx * dx + dy * dy + dz * dz >= s * s
+    return bool(dx * dx + dy * dy + dz * dz >= s * s)
 
 
 @inlined
 def joined(pairs: Pairs, bonds: Bonds, k: int) -> bool:
     """Tell whether an intact bond stands in for the contact of pair k."""
     place = pairs.bond[k]
-    return place >= 0 and bonds.data[place // LANES, INTACT * LANES + place % LANES] == 1.0
+    return place >= 0 and bool(bonds.data[place // LANES, INTACT * LANES + place % LANES] == 1.0)
 
 
 @routine
 def apply(
-    particles: Particles, pairs: Pairs, active: Indices, count: int, numbers: Numbers, scratch: Floats, dt: float
+    particles: Particles,
+    pairs: Pairs,
+    active: Indices,
+    count: int,
+    numbers: Numbers,
+    scratch: Floats,
+    dt: float,
 ) -> None:
     """Gather, compute and scatter one block of touching pairs."""
     for lane in range(count):
@@ -194,7 +200,13 @@ def apply(
 
 @routine
 def sweep_contacts(
-    pairs: Pairs, bonds: Bonds, particles: Particles, numbers: Numbers, scratch: Floats, active: Indices, dt: float
+    pairs: Pairs,
+    bonds: Bonds,
+    particles: Particles,
+    numbers: Numbers,
+    scratch: Floats,
+    active: Indices,
+    dt: float,
 ) -> None:
     """Add the loads of all touching pairs to the particles, in the order of the pairs."""
     count = 0

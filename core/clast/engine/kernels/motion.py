@@ -7,7 +7,7 @@ from clast.engine.state import Numbers, Particles, Walls
 from clast.maths.rotation import turn
 from clast.parts.integrator import Stage
 
-from .layout import INVERSE_INERTIA, INVERSE_MASS, RADIUS, F, M, Q, V, W, X
+from .layout import INVERSE_INERTIA, INVERSE_MASS, F, M, Q, V, W, X
 from .slots import (
     BODY_FORCES,
     ORIENTATION,

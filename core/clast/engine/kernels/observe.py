@@ -47,7 +47,10 @@ def observe(world: World, output: Floats) -> None:
                     continue
                 gather(particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
                 strain, _, _ = bond_measure(
-                    read_motion(scratch, lane), read_reference(data, lane), read_kinematic_state(data, lane), 0.0
+                    read_motion(scratch, lane),
+                    read_reference(data, lane),
+                    read_kinematic_state(data, lane),
+                    0.0,
                 )
                 constants = read_constants(uniforms, data, lane)
                 state = bond_flow(strain, constants, read_bond_state(data, lane))

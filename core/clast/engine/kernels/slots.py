@@ -9,7 +9,7 @@ from clast.parts.integrator import Stage
 
 STAGES = (Stage(0.0, 0.5, 0.0, 1.0, 0.5),)
 SPANS = (1.0,)  # time since the last force evaluation, as a fraction of the step
-CHOICES = None
+CHOICES: Any = None
 
 BONDS = False
 BOND_ORIENTATION = False
@@ -32,7 +32,7 @@ CONTACT_CONSTANTS = 0
 
 
 @inlined
-def nothing(*args: Any) -> None:
+def nothing(*args: Any) -> Any:
     """Stand for a part that the scene lacks."""
     return None
 

@@ -70,9 +70,7 @@ def push(particles: Particles, walls: Walls, k: int, w: int, force: Vec, torque:
 
 
 @routine
-def sweep_walls(
-    walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, dt: float
-) -> None:
+def sweep_walls(walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, dt: float) -> None:
     """Add the loads of all wall contacts to particles and walls, in the order of the pairs."""
     for p in range(len(pairs.wall)):
         w, k = pairs.wall[p], pairs.particle[p]

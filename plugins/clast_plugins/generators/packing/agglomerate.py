@@ -39,9 +39,7 @@ class AgglomerateParams(Params):
     primaries: Annotated[
         int | None, Field(ge=1, le=MOST_PRIMARIES, description="Number of primaries; or give `porosity`")
     ] = None
-    seed: Annotated[
-        int, Field(ge=0, description="Start of the random numbers; the same seed, the same packing")
-    ] = 1
+    seed: Annotated[int, Field(ge=0, description="Start of the random numbers; the same seed, the same packing")] = 1
     max_overlap: Annotated[
         Length | None,
         Field(gt=0, description="Largest overlap that may stay; by default 1e-4 primary diameters"),
@@ -85,9 +83,7 @@ def number_of_primaries(params: AgglomerateParams, diameter: float) -> int:
     return math.floor(exact * (1.0 + 1e-12))
 
 
-def make_agglomerate(
-    params: AgglomerateParams, body: Body, count: int
-) -> tuple[Packing, dict[str, float | int | str]]:
+def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple[Packing, dict[str, float | int | str]]:
     """Pack ``count`` primaries into a body; return the packing and what was reached.
 
     Raises
@@ -110,6 +106,7 @@ def make_agglomerate(
         spin=np.zeros((count, 3)),
         prescribed=np.zeros(count, np.bool_),
         grain=np.zeros(count, np.int64),
+        relieved=relaxed.overlap > allowed / d,
     )
     return packing, _reached(params, relaxed, position, radius, allowed)
 
@@ -128,7 +125,7 @@ def _reached(
         "allowed_overlap_m": allowed,
         "overlaps_within_tolerance": "yes"
         if relaxed.overlap * params.primary_diameter <= allowed
-        else "no, accepted",
+        else "no, accepted; contacts start stress-free",
         "coordination_touching": contact_coordination(position, radius),
     }
 

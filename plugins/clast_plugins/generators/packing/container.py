@@ -70,9 +70,7 @@ def random_centres(stream: np.random.Philox, count: int, container: Container) -
     -------
     (count, 3) float64
     """
-    room = np.array(
-        [1.0, 1.0, min(1.0, container.half_height / container.radius if container.radius else 1.0)]
-    )
+    room = np.array([1.0, 1.0, min(1.0, container.half_height / container.radius if container.radius else 1.0)])
     kept = np.empty((0, 3))
     while len(kept) < count:
         trial = uniforms(stream, 2 * count) * room

@@ -190,9 +190,7 @@ def settle(spheres: SoftSpheres, position: Floats) -> Floats:
     fading = Fading()
     velocity = np.zeros_like(position)
     step, steering, downhill = 0.3, 0.1, 0
-    while (
-        spheres.push(position) > spheres.tolerance and spheres.left > 0 and not fading.stopped(spheres.energy)
-    ):
+    while spheres.push(position) > spheres.tolerance and spheres.left > 0 and not fading.stopped(spheres.energy):
         power, force_square, speed_square = products(spheres.force, velocity)
         if power > 0.0:
             downhill += 1

@@ -1,0 +1,155 @@
+"""``clast check --build``: packs a scene and tells exact numbers, without running it."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+import numpy as np
+
+from clast.config.scene import SceneConfig
+from clast.engine.blueprint import Blueprint
+from clast.engine.neighbours import find_pairs
+from clast.engine.slots_text import bond_offsets
+from clast.engine.state import World
+from clast.engine.tables import empty_pairs
+from clast.engine.time_step import Limits, choose_step, limits
+from clast.parts.generator import BondList
+from clast.scene.compression import Gauge
+from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
+from clast.scene.plan import blueprint, build_world
+from clast.scene.scene import Scene, build_scene
+from clast.scene.start import check_start
+from clast.simulation import choose_skin
+
+Rows = list[tuple[str, str]]
+
+
+def report(config: SceneConfig) -> str:
+    """Return what a scene is once packed: counts, packing, time step limits, compiled parts.
+
+    Raises
+    ------
+    ClastError
+        Whatever would stop the run from starting.
+    """
+    scene = build_scene(config)
+    check_start(scene)
+    plan = blueprint(scene)
+    found = limits(scene, plan)
+    step = choose_step(scene, found)
+    world = build_world(scene, plan, step, choose_skin(scene))
+    sections = [
+        ("Scene", scene_rows(scene)),
+        *((f"Generator {name}", generator_rows(told)) for name, told in scene.report.items()),
+        ("Time step", step_rows(scene, found, step)),
+        ("Compiled in", [(name, text) for name, on, text in features(plan) if on]),
+        (
+            "Left out: this scene does not need it",
+            [(name, text) for name, on, text in features(plan) if not on],
+        ),
+        ("Memory", memory_rows(scene, plan, world)),
+    ]
+    return "\n\n".join(f"{title}\n{table(rows)}" for title, rows in sections if rows)
+
+
+def table(rows: Rows) -> str:
+    """Return rows as aligned lines."""
+    wide = max(len(name) for name, _ in rows)
+    return "\n".join(f"  {name:{wide}}  {text}" for name, text in rows)
+
+
+def scene_rows(scene: Scene) -> Rows:
+    """Return counts, coordination and overlaps."""
+    n = len(scene.radius)
+    bonds = BondList(scene.ends, scene.diameter, scene.length)
+    found = overlaps(scene.position, scene.radius)
+    degree = np.bincount(scene.ends.ravel(), minlength=n)
+    rows = [
+        ("particles", f"{n}, radii {scene.radius.min():.4g} to {scene.radius.max():.4g} m"),
+        (
+            "mass",
+            f"{scene.mass.sum() / scene.config.time.mass_scaling:.4g} kg, scaled by {scene.config.time.mass_scaling:g}",
+        ),
+        (
+            "bonds",
+            f"{len(scene.ends)}, {bond_coordination(n, bonds):.2f} a particle ({degree.min()} to {degree.max()})",
+        ),
+        ("touching neighbours", f"{contact_coordination(scene.position, scene.radius):.2f} a particle"),
+        ("overlaps", f"{found.pairs} pairs, largest {found.largest:.3g} m, mean {found.mean:.3g} m"),
+    ]
+    loose = int(np.count_nonzero(degree == 0)) if len(scene.ends) else 0
+    return rows + ([("particles without a bond", str(loose))] if loose else [])
+
+
+def generator_rows(told: object) -> Rows:
+    """Return what a generator says it reached."""
+    assert hasattr(told, "items")
+    return [(str(name), f"{value:.5g}" if isinstance(value, float) else str(value)) for name, value in told.items()]
+
+
+def step_rows(scene: Scene, found: Limits, step: float) -> Rows:
+    """Return every limit, the step that was chosen, and how far it is from instability."""
+    names = {
+        "bond network 2/omega_max": found.network,
+        "the same with damping": found.stable,
+        "single bond, Eqs. 16-17": found.bond,
+        "Rayleigh, Eq. 15": found.rayleigh,
+        "Hertz impact at 1 m/s, 1/20": found.contact,
+    }
+    rows = [(name, f"{value:.4g} s") for name, value in names.items() if isfinite(value)]
+    rule = scene.config.time.step
+    origin = "fixed" if isinstance(rule, float) else f"rule '{rule.rule}', factor {rule.factor:g}"
+    rows.append(("step taken", f"{step:.4g} s ({origin})"))
+    if isfinite(found.stable):
+        rows.append(("share of the stable step", f"{step / found.stable:.2f}"))
+    return [*rows, ("steps to the end", f"{Gauge(scene.config).last_step(step):,}")]
+
+
+def features(plan: Blueprint) -> list[tuple[str, bool, str]]:
+    """Return every feature of the step loop, whether it is compiled in, and what it is."""
+    bonds, contacts = plan.bonds, plan.contacts
+    law = contacts.features if contacts is not None else None
+    names = ", ".join(wall.summary for wall in plan.walls)
+    return [
+        ("bonds", bonds is not None, "gather, kinematics, law, scatter in blocks of lanes"),
+        ("bond state", bonds is not None and bonds.model.State is not None, "plastic strains and the like"),
+        ("bond events", bonds is not None and bonds.model.on_event is not None, "stress drops"),
+        ("bond damping", bonds is not None and bonds.damping, "dashpots beside the bonds"),
+        ("bond history", bonds is not None and bonds.kinematics.State is not None, "sums over the steps"),
+        ("fading of broken bonds", bonds is not None and bonds.fade, "load let go over several steps"),
+        (
+            "contacts of particles",
+            contacts is not None and contacts.between_particles,
+            "Verlet list and contact law",
+        ),
+        (
+            "contacts of bonded pairs",
+            bonds is not None and contacts is not None and contacts.bonded_pairs,
+            "beside the bond",
+        ),
+        ("contact damping", law is not None and law.damping, "restitution below 1"),
+        ("sliding friction", law is not None and law.sliding, "tangential history a contact"),
+        ("rolling friction", law is not None and law.rolling, "rolling torques"),
+        ("walls", bool(plan.walls), names or "planes, cylinders"),
+        ("moving walls", bool(plan.motions), "velocities of walls"),
+        ("body forces", bool(plan.body_forces), "gravity and others"),
+        ("orientations", plan.orientation, "a quaternion a particle"),
+        ("spins", plan.spin, "rotation of particles"),
+    ]
+
+
+def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
+    """Return the bytes of the tables, measured."""
+    n, m = len(scene.radius), len(scene.ends)
+    rows = [("particles", f"{sum(a.nbytes for a in world.particles) / n:.0f} bytes each")]
+    if plan.bonds is not None:
+        size = sum(a.nbytes for a in world.bonds) / m
+        rows.append(("bonds", f"{size:.0f} bytes each, {bond_offsets(plan.bonds)['end']} numbers"))
+    if plan.contacts is not None and plan.contacts.between_particles:
+        search = scene.config.neighbours.search.part
+        pairs = find_pairs(world.particles, world.bonds, empty_pairs(plan.history), search, choose_skin(scene))
+        count = len(pairs.first)
+        if count:
+            size = sum(a.nbytes for a in pairs) / count
+            rows.append(("near pairs", f"{count}, {size:.0f} bytes each, skin {choose_skin(scene):.3g} m"))
+    return rows
