@@ -13,7 +13,6 @@ from tests.benchmarks.scenes import Body, bond_model, scene, write_scene
 
 SceneData = dict[str, Any]
 EVERYTHING = "everything"
-ROLLING_FRICTION = 0.05
 COMPILERS = 2
 
 
@@ -63,32 +62,26 @@ def _only_motion(data: SceneData) -> None:
 
 VARIANTS = (
     Variant(
-        EVERYTHING,
-        "everything of the base grain: Model 3, contacts with rolling friction, two plates",
-        _nothing,
+        EVERYTHING, "the scene of the first table: Model 3, contacts with friction and damping, two plates", _nothing
     ),
-    Variant("no_rolling", "no rolling friction", _pairs(rolling_friction=0.0)),
-    Variant("no_friction", "no sliding or rolling friction", _pairs(rolling_friction=0.0, sliding_friction=0.0)),
+    Variant("no_friction", "no friction", _pairs(sliding_friction=0.0)),
     Variant("no_contact_damping", "no damping in contacts (restitution 1)", _pairs(restitution=1.0)),
     Variant("no_walls", "no plates", _set("walls", {})),
     Variant(
-        "no_bonded_contact",
-        "no contact of bonded pairs",
-        lambda data: data["contacts"].update(bonded_pairs=False),
+        "no_bonded_contact", "no contact of bonded pairs", lambda data: data["contacts"].update(bonded_pairs=False)
     ),
     Variant("no_contacts", "no contacts, so no plates either", _without_contacts),
     Variant("no_bonds", "no bonds", _without_bonds),
-    Variant("only_motion", "no bonds, no contacts: motion alone", _only_motion),
+    Variant("only_motion", "neither bonds nor contacts: motion alone", _only_motion),
     Variant("elastic", "Model 1 instead of Model 3", _bonds(model=bond_model("elastic"))),
     Variant("elastic_plastic", "Model 2 instead of Model 3", _bonds(model=bond_model("elastic_plastic"))),
     Variant("incremental", "incremental kinematics instead of total", _bonds(kinematics="incremental")),
-    Variant("leapfrog", "integrator `leapfrog` instead of `midstep`", _set("integrator", "leapfrog")),
-    Variant("verlet", "integrator `velocity_verlet` instead of `midstep`", _set("integrator", "velocity_verlet")),
+    Variant("rolling", "rolling friction on", _pairs(rolling_friction=0.05)),
     Variant("bond_damping", "bond damping on", _bonds(damping=0.05)),
     Variant("gravity", "gravity on", _set("body_forces", [{"type": "gravity", "acceleration": [0.0, 0.0, -9.81]}])),
 )
-QUICK = (EVERYTHING, "no_contacts", "no_bonds", "only_motion")
-BREAKDOWN = QUICK
+BREAKDOWN = (EVERYTHING, "no_contacts", "only_motion")
+"""Variants that tell what bonds, contacts and motion cost."""
 
 
 def write_variants(body: Body, folder: Path, names: Sequence[str] | None = None) -> dict[str, Path]:
@@ -97,9 +90,8 @@ def write_variants(body: Body, folder: Path, names: Sequence[str] | None = None)
     for variant in VARIANTS:
         if names is None or variant.name in names:
             data = copy.deepcopy(scene(body))
-            data["contacts"]["pairs"]["default"]["rolling_friction"] = ROLLING_FRICTION
             variant.change(data)
-            files[variant.name] = write_scene(data, folder / f"{variant.name}.yaml")
+            files[variant.name] = write_scene(data, folder / f"{body.name}-{variant.name}.yaml")
     return files
 
 
@@ -115,4 +107,28 @@ def measure_costs(files: dict[str, Path], first: int, steps: int, rounds: int) -
     say(f"features: {len(files)} variants")
     _, times = worker("compare_scenes", first, steps, rounds, *files.values())
     known = {variant.name: variant for variant in VARIANTS}
-    return {name: Cost(known[name], spread([1e9 * t for t in values])) for name, values in times.items()}
+    costs = {}
+    for name, file in files.items():
+        costs[name] = Cost(known[name], spread([1e9 * t for t in times[file.stem]]))
+    return costs
+
+
+class Shares(NamedTuple):
+    """Where a step's time goes, in ns: differences between variants."""
+
+    step: float
+    bonds: float
+    contacts: float
+    motion: float
+
+    @property
+    def largest(self) -> str:
+        """The largest of them, in words."""
+        named = {"the bonds": self.bonds, "the contacts": self.contacts, "the motion of particles": self.motion}
+        return max(named, key=lambda name: named[name])
+
+
+def shares(costs: dict[str, Cost]) -> Shares:
+    """Return where the time goes: bonds alone, what contacts and plates add, and motion alone."""
+    step, bonded, motion = (costs[name].step.median for name in (EVERYTHING, "no_contacts", "only_motion"))
+    return Shares(step, bonded - motion, step - bonded, motion)

@@ -7,7 +7,6 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import numpy as np
@@ -62,32 +61,7 @@ def compare_scenes(first: str, steps: str, rounds: str, *files: str) -> Measured
     return times
 
 
-def crush(file: str, parts: str) -> Measured:
-    """Run a scene to its end in equal parts; steps per CPU s and how often lists were made, part by part."""
-    simulation = Simulation(load(file, ["output.writers=[]"]))
-    simulation.advance_to(0)
-    edges = np.linspace(0, simulation.last_step, int(parts) + 1).astype(int)
-    rates, rebuilds, strains = [], [], []
-    for first, last in zip(edges, edges[1:], strict=False):
-        begun, made = time.process_time(), simulation.rebuilds
-        simulation.advance_to(int(last))
-        rates.append(float(last - first) / (time.process_time() - begun))
-        rebuilds.append(simulation.rebuilds - made)
-        strains.append(simulation.gauge.strain(simulation.world.walls))
-    return {"strain": strains, "steps_per_s": rates, "rebuilds": rebuilds, "list_s": _list_time(simulation)}
-
-
-def _list_time(simulation: Simulation) -> float:
-    """Return CPU s of making neighbour lists once."""
-    times = []
-    for _ in range(5):
-        begun = time.process_time()
-        simulation.renew_lists()
-        times.append(time.process_time() - begun)
-    return float(median(times))
-
-
-TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes, crush)}
+TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes)}
 
 
 def main(arguments: Sequence[str]) -> None:

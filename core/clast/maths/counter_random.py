@@ -7,6 +7,7 @@ Source: J. K. Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC'1
 from __future__ import annotations
 
 MASK = 0xFFFFFFFF
+KEY = 0x636C6173
 
 
 def philox(c0: int, c1: int, c2: int, c3: int, k0: int, k1: int) -> tuple[int, int, int, int]:
@@ -46,6 +47,6 @@ def uniform(seed: int, owner: int, component: int, event: int) -> float:
     >>> round(uniform(1, 7, 0, 0), 6) == round(uniform(1, 7, 0, 0), 6)
     True
     """
-    a, b, _, _ = philox(owner & MASK, (owner >> 32) & MASK, component & MASK, event & MASK, seed & MASK, 0x636C6173)
-    high = (a << 21) ^ (b >> 11)
-    return ((high & 0xFFFFFFFFFFFFF) + 0.5) / 4503599627370496.0
+    a, b, _, _ = philox(owner & MASK, (owner >> 32) & MASK, component & MASK, event & MASK, seed & MASK, KEY)
+    # 26 bits of each word; every sum and product is exact
+    return ((a >> 6) * 67108864.0 + (b >> 6) + 0.5) / 4503599627370496.0

@@ -29,6 +29,20 @@ def multiply(p: Quat, q: Quat) -> Quat:
     )
 
 
+def relative(p: Quat, q: Quat) -> Quat:
+    """Return p⁻¹ q, grouped so that swapping p and q gives the inverse to the bit.
+
+    >>> relative((1.0, 0.0, 0.0, 0.0), (0.6, 0.8, 0.0, 0.0))
+    (0.6, 0.8, 0.0, 0.0)
+    """
+    return (
+        (p[0] * q[0] + p[1] * q[1]) + (p[2] * q[2] + p[3] * q[3]),
+        (p[0] * q[1] - p[1] * q[0]) + (p[3] * q[2] - p[2] * q[3]),
+        (p[0] * q[2] - p[2] * q[0]) + (p[1] * q[3] - p[3] * q[1]),
+        (p[0] * q[3] - p[3] * q[0]) + (p[2] * q[1] - p[1] * q[2]),
+    )
+
+
 def matrix(q: Quat) -> Matrix:
     """Return the rotation matrix of a unit quaternion, which takes the material frame into space.
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast import hookimpl
-from clast.maths.rotation import Matrix, matrix, multiply, rotate, rotate_back
+from clast.maths.rotation import Matrix, matrix, relative, rotate, rotate_back
 from clast.maths.vec3 import Vec, add, cross, dot, scale, sub
 from clast.parts.bond_kinematics import BondKinematics, BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, Strain
@@ -93,7 +93,7 @@ def arctangent_rest(z: float) -> float:
 def measure(motion: BondMotion, ref: Reference, state: None, dt: float) -> tuple[Strain, Frame, None]:
     """Return strain measures and frame of a bond; motion needs d, q_i and q_j only."""
     q_i, q_j = motion.q_i, motion.q_j
-    p = multiply((q_i[0], -q_i[1], -q_i[2], -q_i[3]), q_j)
+    p = relative(q_i, q_j)
     s = 1.0 if p[0] >= 0.0 else -1.0
     a = 1.0 + s * p[0]  # 2 cos²(θ/4)
     k = 1.0 / sqrt(a + a)

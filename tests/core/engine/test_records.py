@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from clast.engine.records import columns, construct, destruct, fields, numbers, width
 from clast.errors import PluginError
 from clast.maths.rotation import Quat
 from clast.maths.vec3 import Vec
-from clast.parts.bond_model import Numbers
 
 
 class Kept(NamedTuple):
@@ -19,7 +19,7 @@ class Kept(NamedTuple):
     slip: Vec
     turn: Quat
     count: int
-    modulus: Numbers
+    modulus: NDArray[np.float64] | float
 
 
 class Listed(NamedTuple):

@@ -80,7 +80,7 @@ def test_translating_and_turning_as_a_whole_strains_nothing_at_any_step_size(n, 
     axis = scale(1.0 / rate, w) if rate > 0.0 else (1.0, 0.0, 0.0)
     for _ in range(10):
         d = rotate(rotation(axis, rate * dt), d)
-        strain, state, ends = step(moving(d, cross(w, d), w, w), state, dt)
+        strain, state, _ = step(moving(d, cross(w, d), w, w), state, dt)
         assert strain.axial == pytest.approx(0.0, abs=1e-14)
         assert (strain.shear, strain.twist, strain.bending) == (REST, 0.0, REST)
 

@@ -1,0 +1,59 @@
+"""The picture of the benchmark: bars of steps per CPU second, and the speed through a crushing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from tests.benchmarks.measure import number
+from tests.benchmarks.startup import FirstRun
+from tests.benchmarks.throughput import MODELS, PEER, Comparison
+
+CLAST_COLOUR, PEER_COLOUR = "#1f6f8b", "#b8b8b8"
+TITLES = {"grain": "one grain", "array": "125 grains"}
+
+
+def draw(comparisons: Sequence[Comparison], run: FirstRun | None, file: Path) -> None:
+    """Draw what was measured and write it as PNG."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    panels = len(comparisons) + (run is not None)
+    figure = Figure(figsize=(4.2 * panels, 3.4), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(1, panels, squeeze=False)[0]
+    for axis, comparison in zip(axes, comparisons, strict=False):
+        _draw_bars(axis, comparison)
+    if run is not None:
+        _draw_speed(axes[-1], run)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, dpi=130)
+
+
+def _draw_bars(axis: Any, comparison: Comparison) -> None:
+    rates = {f"Clast\n{MODELS[model]}": comparison.rate(model).median for model in comparison.clast}
+    if comparison.peer is not None:
+        rates[f"{PEER}\nbpm/rotational"] = float(sorted(comparison.peer.rate)[len(comparison.peer.rate) // 2])
+    colours = [PEER_COLOUR if name.startswith(PEER) else CLAST_COLOUR for name in rates]
+    bars = axis.bar(list(rates), list(rates.values()), color=colours, width=0.65)
+    axis.bar_label(bars, [number(rate) for rate in rates.values()], padding=2)
+    body = comparison.body
+    size = f"{number(len(body.position))} particles, {number(len(body.ends))} bonds"
+    axis.set_title(f"{TITLES[body.name]}: {size}", fontsize=10)
+    axis.set_ylabel("steps per CPU second")
+    axis.margins(y=0.12)
+    axis.spines[["top", "right"]].set_visible(False)
+    axis.tick_params(axis="x", labelsize=8)
+
+
+def _draw_speed(axis: Any, run: FirstRun) -> None:
+    rows = run.told["speed"]
+    strain = [0.0, *(100.0 * row["strain"] for row in rows)]
+    rate = [row["steps_per_s"] for row in rows]
+    axis.stairs(rate, strain, color=CLAST_COLOUR, linewidth=1.8)
+    axis.set_ylim(0.0, 1.12 * max(rate))
+    axis.set_xlabel("strain in %")
+    axis.set_ylabel("steps per CPU second")
+    axis.set_title("Clast while the ready scene is crushed", fontsize=10)
+    axis.spines[["top", "right"]].set_visible(False)

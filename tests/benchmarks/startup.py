@@ -1,0 +1,97 @@
+"""How long a user waits, and what a run costs besides its steps."""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tests.benchmarks.measure import ROOT, Child, Spread, clast, run_child, say, spread, worker
+
+CONFIG = ROOT / "configs" / "crush_grain.yaml"
+SHORT = ("time.end.strain=0.03",)
+OUTPUT = {"samples": "samples", "frames": "frames", "saving": "flushing and checkpoint"}
+
+
+class Wait(NamedTuple):
+    """One thing to wait for: the command, wall and CPU time in s, and what the wall time should stay below."""
+
+    what: str
+    command: str
+    wall: Spread
+    cpu: Spread
+    target: float
+
+
+@dataclass(frozen=True)
+class FirstRun:
+    """The ready scene run where nothing was ever compiled: the process, and what it told of itself."""
+
+    child: Child
+    told: dict[str, Any]
+    short: bool
+
+    @property
+    def first_step(self) -> float:
+        """Wall s from launch to the first step."""
+        return float(self.told["first_step_at"] - self.child.launched_at)
+
+    @property
+    def stepping(self) -> float:
+        """CPU s of the steps alone, neighbour lists included."""
+        return float(self.told["loop_s"]) - self.output
+
+    @property
+    def output(self) -> float:
+        """CPU s of samples, frames and saving during the run."""
+        return float(sum(self.told["spent_s"].get(name, 0.0) for name in OUTPUT))
+
+    @property
+    def writers(self) -> dict[str, float]:
+        """CPU s of each writer after the run."""
+        return {name: s for name, s in self.told["spent_s"].items() if name not in (*OUTPUT, "lists", "")}
+
+    @property
+    def lists(self) -> float:
+        """CPU s of making neighbour lists."""
+        return float(self.told["spent_s"].get("lists", 0.0))
+
+
+def measure_waits(repeats: int) -> list[Wait]:
+    """Measure what is waited for when everything is compiled."""
+    say("start-up")
+    worker("compile_scenes", CONFIG)
+    asked = [clast("--help") for _ in range(repeats)]
+    checked = [clast("check", CONFIG) for _ in range(repeats)]
+    started = [worker("first_step", CONFIG) for _ in range(repeats)]
+    seconds = [told["at"] - child.launched_at for child, told in started]
+    return [
+        _wait("help", "clast --help", asked, 0.3),
+        _wait("check of a scene", "clast check configs/crush_grain.yaml", checked, 1.5),
+        Wait(
+            "second start to the first step, packing included",
+            "load, Simulation, advance_to(1)",
+            spread(seconds),
+            spread([child.cpu for child, _ in started]),
+            2.0,
+        ),
+    ]
+
+
+def _wait(what: str, command: str, children: Sequence[Child], target: float) -> Wait:
+    return Wait(what, command, spread([c.wall for c in children]), spread([c.cpu for c in children]), target)
+
+
+def measure_first_run(short: bool) -> FirstRun:
+    """Run the ready scene with empty caches, as ``make run`` does on a new machine; to 3 % strain when short."""
+    say("first run of configs/crush_grain.yaml, with empty caches")
+    with tempfile.TemporaryDirectory() as empty:
+        folder = Path(empty)
+        nothing = {"CLAST_CACHE": str(folder / "loops"), "NUMBA_CACHE_DIR": str(folder / "numba")}
+        command = [sys.executable, "-m", "tests.benchmarks.whole_run", str(CONFIG), str(folder / "run")]
+        child = run_child([*command, *(SHORT if short else ())], ROOT, nothing)
+    return FirstRun(child, json.loads(child.output.strip().splitlines()[-1]), short)

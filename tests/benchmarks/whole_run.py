@@ -1,0 +1,128 @@
+"""One run as a user makes it, timed part by part from inside; prints one line of JSON at the end.
+
+``python -m tests.benchmarks.whole_run FILE FOLDER [KEY=VALUE ...]``
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from clast import Simulation, load
+from clast.results import checkpoint
+from clast.results.frames import Frames
+from clast.results.samples import Samples
+from clast.results.store import Store
+from clast.session import Listener, run_scene
+
+PARTS = 10
+OUTPUT = ("samples", "frames", "saving")
+
+
+class Clocks(Listener):
+    """CPU s spent in each kind of work since the first step, and the speed along the way."""
+
+    def __init__(self) -> None:
+        self.spent: defaultdict[str, float] = defaultdict(float)
+        self.told: dict[str, Any] = {"memory_MB": {"scene read": peak_memory()}}
+        self.marks: list[tuple[int, float, float, int]] = []
+        self.begun = 0.0
+        self.busy = False
+        self.current = ""
+        self.writer_begun = 0.0
+
+    def started(self, simulation: Simulation) -> None:
+        """Start the clocks: everything is compiled now."""
+        self.told |= {"first_step_at": time.time(), "particles": len(simulation.scene.radius)}
+        self.told |= {"bonds": len(simulation.scene.ends), "steps": simulation.last_step}
+        self.told["memory_MB"]["first step"] = peak_memory()
+        self.spent.clear()
+        self.begun = time.process_time()
+        self.mark(simulation)
+
+    def mark(self, simulation: Simulation) -> None:
+        """Note how far the run is."""
+        strain = simulation.gauge.strain(simulation.world.walls)
+        stepping = time.process_time() - self.begun - sum(self.spent[name] for name in OUTPUT)
+        self.marks.append((simulation.step, strain, stepping, simulation.rebuilds))
+
+    def writing(self, name: str) -> None:
+        """End the step loop's account when the first writer starts, and the last writer's."""
+        now = time.process_time()
+        if not self.current:
+            self.told["loop_s"] = now - self.begun
+            self.told["memory_MB"]["last step"] = peak_memory()
+        else:
+            self.spent[self.current] += now - self.writer_begun
+        self.current, self.writer_begun = name, now
+
+    def timed(self, name: str, work: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function that does the same and is clocked, unless a clocked one called it."""
+
+        def clocked(*arguments: Any, **named: Any) -> Any:
+            if self.busy:
+                return work(*arguments, **named)
+            self.busy, begun = True, time.process_time()
+            try:
+                return work(*arguments, **named)
+            finally:
+                self.busy = False
+                self.spent[name] += time.process_time() - begun
+
+        return clocked
+
+    def watch(self) -> None:
+        """Clock the lists of neighbours and what a session does besides stepping."""
+        Simulation.renew_lists = self.timed("lists", Simulation.renew_lists)  # type: ignore[method-assign]
+        Samples.observe = self.timed("samples", Samples.observe)  # type: ignore[method-assign]
+        Store.flush = self.timed("saving", Store.flush)  # type: ignore[method-assign]
+        checkpoint.save = self.timed("saving", checkpoint.save)
+        look = self.timed("frames", Frames.observe)
+
+        def observe(frames: Frames, simulation: Simulation) -> None:
+            look(frames, simulation)
+            if self.begun:
+                self.mark(simulation)
+
+        Frames.observe = observe  # type: ignore[method-assign]
+
+
+def peak_memory() -> float:
+    """Return the most memory this process has had, in MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2)
+
+
+def speed(marks: Sequence[tuple[int, float, float, int]]) -> list[dict[str, float]]:
+    """Return strain, steps per CPU s without output, and lists made, for equal parts of a run."""
+    count = len(marks) - 1
+    parts = min(PARTS, count)
+    rows = [marks[round(k * count / parts)] for k in range(parts + 1)] if parts else []
+    return [
+        {
+            "strain": last[1],
+            "steps_per_s": (last[0] - first[0]) / max(last[2] - first[2], 1e-9),
+            "lists": last[3] - first[3],
+        }
+        for first, last in zip(rows, rows[1:], strict=False)
+    ]
+
+
+def main(file: Path, folder: Path, settings: Sequence[str]) -> dict[str, Any]:
+    """Run a scene and tell where the time went."""
+    config = load(file, settings)
+    clocks = Clocks()
+    clocks.watch()
+    run_scene(config, folder, listener=clocks)
+    clocks.writing("")
+    clocks.told["memory_MB"]["end"] = peak_memory()
+    return clocks.told | {"spent_s": dict(clocks.spent), "speed": speed(clocks.marks)}
+
+
+if __name__ == "__main__":
+    print(json.dumps(main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])))
