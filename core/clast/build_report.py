@@ -8,7 +8,7 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint
-from clast.engine.neighbours import find_pairs
+from clast.engine.neighbours import choose_slack, find_pairs
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import World
 from clast.engine.tables import empty_pairs
@@ -37,7 +37,7 @@ def report(config: SceneConfig) -> str:
     plan = blueprint(scene)
     found = limits(scene, plan)
     step = choose_step(scene, found)
-    world = build_world(scene, plan, step, choose_skin(scene))
+    world = build_world(scene, plan, step, 2.0 * choose_skin(scene).most)
     sections = [
         ("Scene", scene_rows(scene)),
         *((f"Generator {name}", generator_rows(told)) for name, told in scene.report.items()),
@@ -147,9 +147,10 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
         rows.append(("bonds", f"{size:.0f} bytes each, {bond_offsets(plan.bonds)['end']} numbers"))
     if plan.contacts is not None and plan.contacts.between_particles:
         search = scene.config.neighbours.search.part
-        pairs = find_pairs(world.particles, world.bonds, empty_pairs(plan.history), search, choose_skin(scene))
+        slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt)
+        pairs = find_pairs(world.particles, world.bonds, empty_pairs(plan.history), search, slack)
         count = len(pairs.first)
         if count:
             size = sum(a.nbytes for a in pairs) / count
-            rows.append(("near pairs", f"{count}, {size:.0f} bytes each, skin {choose_skin(scene):.3g} m"))
+            rows.append(("near pairs", f"{count}, {size:.0f} bytes each, skin {2.0 * slack.min():.3g} m"))
     return rows

@@ -54,7 +54,9 @@ class Listener:
         """Hear that a writer starts."""
 
 
-def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener: Listener | None = None) -> Outcome:
+def run_scene(
+    config: SceneConfig, folder: Path | str, resume: bool = False, listener: Listener | None = None
+) -> Outcome:
     """Run a scene into a folder.
 
     Parameters
@@ -77,7 +79,7 @@ def run_scene(config: SceneConfig, folder: Path, resume: bool = False, listener:
     RunError
         If the folder, the checkpoint or the run fails.
     """
-    listener = listener or Listener()
+    listener, folder = listener or Listener(), Path(folder)
     prepare_folder(folder, resume)
     try:
         listener.building()

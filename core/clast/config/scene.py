@@ -221,7 +221,7 @@ def _plain(value: Any, folder: Path) -> Any:
     if isinstance(value, Chosen | WallChoice):
         return _plain(value.plain(), folder)
     if isinstance(value, Params):
-        return _plain(plain_fields(value), folder)
+        return _plain({key: inner for key, inner in plain_fields(value).items() if inner is not None}, folder)
     if isinstance(value, Mapping):
         return {str(key): _plain(inner, folder) for key, inner in value.items()}
     if isinstance(value, list | tuple):

@@ -31,7 +31,7 @@ class Kernel:
         See ``kernels.step_loop.advance``.
     observe : (world, output) -> None
         See ``kernels.observe.observe``.
-    near_walls : (particles, walls, skin, near) -> None
+    near_walls : (particles, walls, slack, wall_slack, near) -> None
         See ``kernels.near_walls.near_walls``.
     digest : str
         Of every source that takes part.

@@ -3,27 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.kernels.layout import INTACT, INVERSE_MASS, RADIUS, X
-from clast.engine.state import Bonds, Integers, Pairs, Particles, WallPairs, Walls
+from clast.engine.kernels.layout import INTACT, INVERSE_MASS, RADIUS, V, X
+from clast.engine.state import Bonds, Floats, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import slot_view
 from clast.parts.neighbour_search import NeighbourSearch
 
 NearWalls = Callable[..., None]
 
 
-def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: NeighbourSearch, skin: float) -> Pairs:
-    """Return all pairs closer than the skin, with the history of those that were known.
+class Skin(NamedTuple):
+    """How wide neighbour lists reach beyond contact, a side: bounds in m, and the steps a particle should be free."""
+
+    least: float
+    most: float
+    steps: float
+
+
+def choose_slack(particles: Particles, skin: Skin, dt: float) -> Floats:
+    """Return how far each particle may move before lists go stale, (n,) in m.
+
+    A particle gets the way it makes in ``skin.steps`` steps, within the skin's bounds: the few fast fragments of a
+    burst grain do not force a search every other step, and the many slow ones have short lists.
+    """
+    v = particles.twist[:, V : V + 3]
+    way = skin.steps * dt * np.sqrt(np.einsum("ij,ij->i", v, v))
+    return np.asarray(np.clip(way, skin.least, skin.most))
+
+
+def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: NeighbourSearch, slack: Floats) -> Pairs:
+    """Return all pairs that can come to touch while each moves by its slack, with the history of those known.
 
     Pairs of two prescribed particles, and particles that left, are left out: nothing could move them.
     """
     here = np.nonzero(particles.present)[0]
     position = np.ascontiguousarray(particles.pose[here, X : X + 3])
-    reach = particles.pose[here, RADIUS] + 0.5 * skin
+    reach = particles.pose[here, RADIUS] + slack[here]
     found = here[search.find_pairs(position, reach).astype(np.int64)].reshape(-1, 2)
     movable = particles.twist[:, INVERSE_MASS] > 0.0
     found = found[movable[found].any(axis=1)]
@@ -40,11 +59,11 @@ def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: Neighbour
 
 
 def find_wall_pairs(
-    particles: Particles, walls: Walls, old: WallPairs, near_walls: NearWalls, skin: float
+    particles: Particles, walls: Walls, old: WallPairs, near_walls: NearWalls, slack: Floats, wall_slack: float
 ) -> WallPairs:
-    """Return the particles closer to a wall than the skin, with the history of those that were known."""
+    """Return the particles that can come to touch a wall, with the history of those that were known."""
     near = np.zeros((len(walls.shape_kind), len(particles.pose)), np.uint8)
-    near_walls(particles, walls, skin, near)
+    near_walls(particles, walls, slack, wall_slack, near)
     table = np.argwhere(near)
     before, now = key(old.wall, old.particle), key(table[:, 0], table[:, 1])
     touching, history = carried(before, now, old.touching, old.history)
@@ -83,7 +102,8 @@ def bond_places(bonds: Bonds, pairs: Integers) -> Integers:
     return place
 
 
-def remember_positions(particles: Particles, walls: Walls) -> None:
-    """Note where everything is, so that the loop can tell when the lists go stale."""
-    particles.reference[:] = particles.pose[:, X : X + 3]
+def remember_positions(particles: Particles, walls: Walls, slack: Floats) -> None:
+    """Note where everything is and may go, so that the loop can tell when the lists go stale."""
+    particles.reference[:, :3] = particles.pose[:, X : X + 3]
+    particles.reference[:, 3] = slack * slack
     walls.reference[:] = walls.displacement

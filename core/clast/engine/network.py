@@ -27,8 +27,10 @@ def largest_frequency(scene: Scene) -> float:
     def product(u: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(rows.T @ (rows @ u.ravel()))
 
-    operator = LinearOperator((6 * n, 6 * n), matvec=product, dtype=np.float64)  # type: ignore[call-arg, arg-type, unused-ignore]
     first = np.cos(np.arange(6 * n) * 2.399963) + 0.5
+    if not product(first).any():  # nothing that bonds could move
+        return 0.0
+    operator = LinearOperator((6 * n, 6 * n), matvec=product, dtype=np.float64)  # type: ignore[call-arg, arg-type, unused-ignore]
     largest = eigsh(operator, k=1, which="LA", v0=first, tol=1e-4, return_eigenvectors=False)
     return float(np.sqrt(max(largest[0], 0.0)))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple, get_args, get_type_hints
+from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,18 +44,14 @@ def fields(record: type | None) -> list[Field]:
 
 def _size(record: type, name: str, hint: Any) -> int:
     arguments = get_args(hint)
-    if hint in (float, int) or (float in arguments and hint is not tuple and not _is_tuple(hint)):
+    if hint in (float, int):
         return 1
-    if _is_tuple(hint) and all(argument is float for argument in arguments):
+    if get_origin(hint) is tuple and all(argument is float for argument in arguments):
         return len(arguments)
     raise PluginError(
         f"{record.__module__}.{record.__qualname__}.{name}: {hint} cannot be kept in the compiled loop; "
         "use float or Vec"
     )
-
-
-def _is_tuple(hint: Any) -> bool:
-    return getattr(hint, "__origin__", None) is tuple
 
 
 def width(record: type | None) -> int:

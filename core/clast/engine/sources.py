@@ -13,6 +13,8 @@ from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
+import numpy as np
+
 from clast.errors import PluginError
 
 FOREIGN = ("numba", "numpy", "math", "builtins")
@@ -46,6 +48,7 @@ def reachable(functions: Iterable[Callable[..., Any]]) -> list[FunctionType]:
     seen: set[FunctionType] = set()
 
     def visit(function: Any) -> None:
+        function = getattr(function, "py_func", function)  # what an author compiled is read as written
         if not isinstance(function, FunctionType) or function in seen:
             return
         if function.__module__.split(".")[0] in FOREIGN:
@@ -79,7 +82,9 @@ def address(function: Callable[..., Any]) -> tuple[str, str]:
 
 
 def constant_text(value: Any) -> str | None:
-    """Return the text of a plain constant, None for anything else."""
+    """Return the text of a plain constant or an array, None for anything else."""
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
     if isinstance(value, bool | int | float | str):
         return repr(value)
     if isinstance(value, tuple) and all(constant_text(v) is not None for v in value):

@@ -16,7 +16,8 @@ Bytes = NDArray[np.uint8]
 class Particles(NamedTuple):
     """Particle tables, (n, 8) float64 each; columns in ``kernels.layout``.
 
-    ``seen`` holds the velocities that forces see; ``reference`` (n, 3) the positions at the last neighbour search;
+    ``seen`` holds the velocities that forces see; ``reference`` (n, 4) the positions at the last neighbour search and
+    the squared distance from there at which the lists go stale;
     ``present`` (n,) is 0 for particles that left the domain.
     """
 
@@ -99,7 +100,7 @@ class Numbers(NamedTuple):
     body: Floats
     dt: float
     seed: int
-    reach2: float  # squared displacement at which neighbour lists go stale
+    wall_reach2: float  # squared displacement of a wall at which its neighbours go stale
     lever: float  # 1: forces act at the contact point, 0: at the undeformed radius
     start_kick: float
     fade: float  # share of its load that a breaking bond loses each step

@@ -51,7 +51,7 @@ def particle_tables(
     twist[free, INVERSE_INERTIA] = 2.5 / (mass[free] * radius[free] ** 2)
     seen = twist.copy()
     seen[:, MATERIAL] = material
-    return Particles(pose, twist, seen, np.zeros((n, 8)), np.zeros((n, 8)), position.copy(), np.ones(n, np.uint8))
+    return Particles(pose, twist, seen, np.zeros((n, 8)), np.zeros((n, 8)), np.zeros((n, 4)), np.ones(n, np.uint8))
 
 
 def bond_table(plan: BondPlan, ends: Integers, reference: Any, constants: Any, start: Any, damping: Floats) -> Bonds:

@@ -45,5 +45,4 @@ class Frames:
         row["bond_stress"] = (loads[:, 2] / (0.25 * np.pi * scene.diameter**2)).astype(np.float32)
         row["bond_failure"] = loads[:, 6].astype(np.float32)
         self.store.append("frames", row)
-        self.store.keep_cracks(simulation)
-        self.store.flush()
+        self.store.keep_up(simulation)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,7 +21,7 @@ GROWING = ("curves", "frames", "tracks/particles", "tracks/bonds")
 
 
 class Store:
-    """Appends rows to ``results.h5``; flushed with every frame, so a killed run loses nothing older.
+    """Appends rows to ``results.h5``; flushed every second that has a frame, so a killed run loses nothing older.
 
     Parameters
     ----------
@@ -39,6 +40,7 @@ class Store:
         import h5py
 
         self.path = folder / FILE
+        self.flushed = 0.0
         self.pending: dict[str, dict[str, list[NDArray[Any]]]] = {}
         try:
             self.file = h5py.File(self.path, "r+" if resume else "w")
@@ -66,7 +68,7 @@ class Store:
         for name in ("particles", "bonds"):
             wanted = getattr(scene.config.output.tracks, name)
             if wanted:
-                file.create_group(f"tracks/{name}").attrs["numbers"] = list(wanted)
+                self._growing(f"tracks/{name}").attrs["numbers"] = list(wanted)
 
     def append(self, group: str, row: Mapping[str, Any]) -> None:
         """Append one row to every dataset of a group; it reaches the file with the next flush."""
@@ -76,10 +78,16 @@ class Store:
 
     def _write_pending(self) -> None:
         for group, columns in self.pending.items():
-            table = self.file.require_group(group)
+            table = self._growing(group)
             for name, rows in columns.items():
                 self._extend(table, name, np.stack(rows))
         self.pending.clear()
+
+    def _growing(self, group: str) -> Any:
+        """Return a group, made when missing; its datasets keep the order in which they were made."""
+        if group not in self.file:
+            self.file.create_group(group, track_order=True)
+        return self.file[group]
 
     def _extend(self, table: Any, name: str, rows: NDArray[Any]) -> None:
         shape = rows.shape[1:]
@@ -120,6 +128,12 @@ class Store:
         except OSError as error:
             raise self._full(error) from error
 
+    def keep_up(self, simulation: Simulation) -> None:
+        """Bring frames and cracks to disk, unless that was done within the last second."""
+        if time.monotonic() - self.flushed >= 1.0:
+            self.keep_cracks(simulation)
+            self.flush()
+
     def lengths(self) -> dict[str, int]:
         """Return how many rows each growing group has."""
         found = {name: self._length(name) for name in (*GROWING, "cracks")}
@@ -143,6 +157,7 @@ class Store:
         try:
             self._write_pending()
             self.file.flush()
+            self.flushed = time.monotonic()
         except OSError as error:
             raise self._full(error) from error
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import threading
 import time
 from collections.abc import Callable
 from types import FrameType
@@ -46,8 +47,10 @@ class Watch:
         self.signal = 0
 
     def __enter__(self) -> Watch:
-        """Take over SIGINT and SIGTERM."""
-        self._before = {number: signal.signal(number, self._note) for number in (signal.SIGINT, signal.SIGTERM)}
+        """Take over SIGINT and SIGTERM, where Python allows it: in the main thread."""
+        mine = threading.current_thread() is threading.main_thread()
+        numbers = (signal.SIGINT, signal.SIGTERM) if mine else ()
+        self._before = {number: signal.signal(number, self._note) for number in numbers}
         return self
 
     def __exit__(self, *reason: object) -> None:

@@ -95,7 +95,7 @@ def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
     walls = sorted({names.index(wall.material) for wall in config.walls.values()})
     found = []
     for i in particles:
-        for j in sorted({*particles, *walls}):
+        for j in sorted({*walls, *(particles if len(scene.radius) > 1 else ())}):
             a, b = config.materials[names[i]], config.materials[names[j]]
             settings = config.contacts.pair(names[i], names[j])
             if settings is None:
@@ -160,7 +160,7 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, dt: float, skin: f
         body=np.array(body, float),
         dt=dt,
         seed=int(seed),
-        reach2=(0.5 * skin) ** 2,
+        wall_reach2=(0.5 * skin) ** 2,
         lever=0.0 if config.contacts and config.contacts.lever == "radius" else 1.0,
         start_kick=float(config.integrator.part.start_kick(config.integrator.params)),
         fade=1.0 / (1 + (config.bonds.fade_steps if config.bonds else 0)),

@@ -22,7 +22,7 @@ class LinkedCells(Params):
 
 def find_pairs(position: NDArray[np.float64], reach: NDArray[np.float64]) -> NDArray[np.uint32]:
     """Return all pairs with |x_i − x_j| < reach_i + reach_j, as brute force does."""
-    from clast_plugins.neighbour_searches.linked_cells_kernel import count_or_fill
+    from clast_plugins.neighbour_searches.linked_cells_kernel import search_cells
 
     n = len(position)
     if n < 2:
@@ -38,13 +38,12 @@ def find_pairs(position: NDArray[np.float64], reach: NDArray[np.float64]) -> NDA
     flat = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
     members = np.argsort(flat, kind="stable")
     begins = np.searchsorted(flat[members], np.arange(np.prod(shape) + 1))
-    counts = np.zeros(n + 1, np.int64)
-    nothing = np.zeros((0, 2), np.uint32)
-    count_or_fill(position, reach, cell, shape, members, begins, counts, nothing)
-    ends = np.cumsum(counts)
-    pairs = np.empty((int(ends[-1]), 2), np.uint32)
-    count_or_fill(position, reach, cell, shape, members, begins, ends, pairs)
-    return pairs
+    pairs = np.empty((16 * n, 2), np.uint32)
+    while True:
+        count = search_cells(position, reach, cell, shape, members, begins, pairs)
+        if count <= len(pairs):
+            return pairs[:count]
+        pairs = np.empty((count, 2), np.uint32)
 
 
 @hookimpl

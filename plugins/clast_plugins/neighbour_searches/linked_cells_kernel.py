@@ -5,21 +5,31 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.compiler import compiled
+from clast.engine.compiler import compiled, inlined
+
+
+@inlined
+def insert(pairs: NDArray[np.uint32], begin: int, count: int, i: int, j: int) -> None:
+    """Put the pair (i, j) among the pairs of i, which begin at ``begin``, in rising order of j."""
+    k = count
+    while k > begin and pairs[k - 1, 1] > j:
+        pairs[k, 1] = pairs[k - 1, 1]
+        k -= 1
+    pairs[k, 1] = j
+    pairs[count, 0] = i
 
 
 @compiled
-def count_or_fill(
+def search_cells(
     position: NDArray[np.float64],
     reach: NDArray[np.float64],
     cell: NDArray[np.int64],
     shape: NDArray[np.int64],
     members: NDArray[np.int64],
     begins: NDArray[np.int64],
-    counts: NDArray[np.int64],
     pairs: NDArray[np.uint32],
-) -> None:
-    """Count each particle's later neighbours into ``counts[i + 1]``, or write them from ``counts[i]`` on.
+) -> int:
+    """Write all near pairs in rising order of both columns, and return how many there are.
 
     Parameters
     ----------
@@ -29,14 +39,12 @@ def count_or_fill(
         Cell of each particle in a grid of ``shape`` cells.
     members, begins : int64
         Particles ordered by cell, and where each cell's begin.
-    counts : (n + 1,) int64
-        Filled when ``pairs`` is empty, else read as offsets.
     pairs : (p, 2) uint32
-        Written in rising order of both columns.
+        As many pairs as fit; when the returned number is larger, call again with more room.
     """
-    fill = len(pairs) > 0
+    count = 0
     for i in range(len(position)):
-        at = begin = counts[i] if fill else 0
+        begin = count
         for a in range(max(cell[i, 0] - 1, 0), min(cell[i, 0] + 2, shape[0])):
             for b in range(max(cell[i, 1] - 1, 0), min(cell[i, 1] + 2, shape[1])):
                 row = (a * shape[1] + b) * shape[2]
@@ -51,14 +59,7 @@ def count_or_fill(
                     dz = position[j, 2] - position[i, 2]
                     s = reach[j] + reach[i]
                     if dx * dx + dy * dy + dz * dz < s * s:
-                        if fill:
-                            k = at
-                            while k > begin and pairs[k - 1, 1] > j:
-                                pairs[k, 1] = pairs[k - 1, 1]
-                                k -= 1
-                            pairs[k, 0] = i
-                            pairs[k, 1] = j
-                            pairs[at, 0] = i
-                        at += 1
-        if not fill:
-            counts[i + 1] = at
+                        if count < len(pairs):
+                            insert(pairs, begin, count, i, j)
+                        count += 1
+    return count

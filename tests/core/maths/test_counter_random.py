@@ -12,6 +12,24 @@ from clast.maths.counter_random import philox, uniform
 WORD = st.integers(0, 2**32 - 1)
 
 
+class Signed64(int):
+    """A number that refuses what does not fit into 64 bits with a sign: compiled, that is undefined."""
+
+
+def checked(name):
+    def operate(self, other):
+        value = getattr(int, name)(self, other)
+        assert -(2**63) <= value < 2**63, f"{name} needs more than 64 bits"
+        return Signed64(value)
+
+    return operate
+
+
+for operation in ("add", "mul", "lshift", "rshift", "and", "xor", "or"):
+    for reflected in ("", "r"):
+        setattr(Signed64, f"__{reflected}{operation}__", checked(f"__{reflected}{operation}__"))
+
+
 @pytest.mark.parametrize(
     ("counter", "key", "words"),
     [
@@ -25,6 +43,11 @@ WORD = st.integers(0, 2**32 - 1)
 )
 def test_the_known_answers_of_the_random123_library_come_out(counter, key, words):
     assert philox(*counter, *key) == words
+
+
+@given(words=st.tuples(*[WORD] * 6))
+def test_no_step_overflows_64_bits_with_a_sign(words):
+    assert philox(*map(Signed64, words)) == philox(*words)
 
 
 @given(seed=WORD, owner=st.integers(0, 2**63 - 1), component=WORD, event=WORD)

@@ -55,13 +55,13 @@ def predict(particles: Particles, k: int, time: float) -> None:
 
 
 @inlined
-def strayed(particles: Particles, k: int, reach2: float) -> bool:
+def strayed(particles: Particles, k: int) -> bool:
     """Tell whether particle k is too far from where neighbours were searched, or nowhere."""
     pose, reference = particles.pose, particles.reference
     dx = pose[k, X] - reference[k, 0]
     dy = pose[k, X + 1] - reference[k, 1]
     dz = pose[k, X + 2] - reference[k, 2]
-    return not dx * dx + dy * dy + dz * dz <= reach2
+    return not dx * dx + dy * dy + dz * dz <= reference[k, 3]
 
 
 @inlined
@@ -79,7 +79,7 @@ def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers) -> 
         for c in range(3):
             particles.load[k, F + c] = 0.0
             particles.load[k, M + c] = 0.0
-        if strayed(particles, k, numbers.reach2):
+        if strayed(particles, k):
             stale = True
     return stale
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from clast.engine.compiler import compiled
-from clast.engine.state import Bytes, Particles, Walls
+from clast.engine.state import Bytes, Floats, Particles, Walls
 from clast.maths.vec3 import sub
 
 from .layout import INVERSE_MASS, RADIUS
@@ -12,14 +12,16 @@ from .wall_sweep import row
 
 
 @compiled
-def near_walls(particles: Particles, walls: Walls, skin: float, near: Bytes) -> None:
-    """Mark every movable particle whose surface is closer to a wall than the skin.
+def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: float, near: Bytes) -> None:
+    """Mark every movable particle that can come to touch a wall before lists go stale.
 
     Parameters
     ----------
     particles, walls : tables
-    skin : float
-        m.
+    slack : (n,) float64
+        How far each particle may move in m.
+    wall_slack : float
+        How far a wall may move in m.
     near : (w, n) uint8
         Set to 1 where a particle is near a wall.
     """
@@ -30,5 +32,5 @@ def near_walls(particles: Particles, walls: Walls, skin: float, near: Bytes) -> 
                     continue
                 x = sub(row(particles.pose, k, 0), row(walls.displacement, w, 0))
                 found = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
-                if found.distance < particles.pose[k, RADIUS] + skin:
+                if found.distance < particles.pose[k, RADIUS] + slack[k] + wall_slack:
                     near[w, k] = 1

@@ -71,7 +71,7 @@ def advance(world: World, steps: int) -> int:
         if clock[MOVED] == 0:
             stale = move_before_forces(particles, stage, numbers)
             if WALLS:
-                stale = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.reach2) or stale
+                stale = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.wall_reach2) or stale
                 clear_wall_forces(world.walls)
             clock[MOVED] = 1
             if stale:
@@ -85,6 +85,6 @@ def advance(world: World, steps: int) -> int:
             sweep_walls(world.walls, world.wall_pairs, particles, numbers, span)
         move_after_forces(particles, stage, numbers, time)
         if WALLS:
-            move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.reach2)
+            move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.wall_reach2)
         count_stage(world)
     return DONE
