@@ -14,11 +14,12 @@ from tests.benchmarks import features, machine, peer, plot, report, startup
 from tests.benchmarks.measure import ROOT, BenchmarkError, say
 from tests.benchmarks.report import Measured
 from tests.benchmarks.scenes import Body, base_grain, grain_array, write_tables
+from tests.benchmarks.tables import MAIN_MODEL
 from tests.benchmarks.throughput import MODELS, Window, compare
 
 SECTIONS = ("grain", "array", "features", "start")
 WINDOWS = {"grain": Window(200, 4200, 5), "array": Window(10, 110, 3)}
-QUICK_WINDOWS = {"grain": Window(200, 2200, 2), "array": Window(10, 40, 1)}
+QUICK_WINDOWS = {"grain": Window(200, 4200, 2), "array": Window(10, 40, 1)}
 ROUNDS = {"grain": Window(200, 2200, 5), "array": Window(10, 40, 3)}
 QUICK_ROUNDS = {"grain": Window(200, 1200, 3), "array": Window(10, 30, 1)}
 
@@ -57,28 +58,46 @@ def main(arguments: Sequence[str]) -> int:
 
 def measure(found: Measured, sections: Sequence[str], folder: Path) -> None:
     """Measure some sections; ``features`` needs the grain, so it brings it along."""
-    if "grain" in sections or "features" in sections:
-        measure_body(found, base_grain(), folder, every_feature="features" in sections)
-    if "array" in sections:
-        measure_body(found, grain_array(), folder, every_feature=False)
+    stepping = [name for name in SECTIONS[:3] if name in sections]
+    if stepping:
+        every = "features" in sections and not found.quick
+        grain = base_grain()
+        files = compiled_variants(grain, folder, every)
+        beside = peer.install()
+        if stepping != ["array"]:
+            measure_body(found, grain, files, list(MODELS) if every else [MAIN_MODEL], beside, folder)
+        if "array" in sections:
+            array = grain_array()
+            write_tables(array, folder)
+            parts = {} if found.quick else features.write_variants(array, folder, features.BREAKDOWN)
+            measure_body(found, array, parts, [MAIN_MODEL], beside, folder)
     if "start" in sections:
-        found.waits = startup.measure_waits(2 if found.quick else 5)
-        found.run = startup.measure_first_run(found.quick)
+        found.run, found.waits = startup.measure_start(2 if found.quick else 5, found.quick)
 
 
-def measure_body(found: Measured, body: Body, folder: Path, every_feature: bool) -> None:
-    """Compare both codes on a body, and find out where Clast's time goes."""
-    write_tables(body, folder)
-    names = None if every_feature and not found.quick else features.BREAKDOWN
-    files = features.write_variants(body, folder, names)
-    say(f"{body.name}: compiling {len(files)} loops where they are not on disk yet")
+def compiled_variants(grain: Body, folder: Path, every: bool) -> dict[str, Path]:
+    """Write the grain's variants and compile their loops, which all bodies share."""
+    write_tables(grain, folder)
+    files = features.write_variants(grain, folder, None if every else features.BREAKDOWN)
+    say(f"compiling {len(files)} loops where they are not on disk yet")
     features.compile_all(list(files.values()))
-    models = list(MODELS) if body.name == "grain" and names is None else list(MODELS)[:1]
-    windows = QUICK_WINDOWS if found.quick else WINDOWS
-    beside, problem = peer.install()
-    found.comparisons.append(compare(body, models, windows[body.name], beside, problem, folder))
-    rounds = (QUICK_ROUNDS if found.quick else ROUNDS)[body.name]
-    found.costs[body.name] = features.measure_costs(files, rounds.first, rounds.steps, rounds.repeats)
+    return files
+
+
+def measure_body(
+    found: Measured,
+    body: Body,
+    files: dict[str, Path],
+    models: Sequence[str],
+    beside: tuple[peer.Peer | None, str],
+    folder: Path,
+) -> None:
+    """Compare both codes on a body, and find out where Clast's time goes."""
+    windows, rounds = (QUICK_WINDOWS, QUICK_ROUNDS) if found.quick else (WINDOWS, ROUNDS)
+    found.comparisons.append(compare(body, models, windows[body.name], *beside, folder))
+    if files:
+        first, last, turns = rounds[body.name]
+        found.costs[body.name] = features.measure_costs(files, first, last - first, turns)
 
 
 if __name__ == "__main__":

@@ -46,7 +46,8 @@ class Spread(NamedTuple):
         >>> str(Spread(1234.0, 1200.5, 1300.0)), str(Spread(0.123, 0.12, 0.13))
         ('1 234 (1 200 to 1 300)', '0.12 (0.12 to 0.13)')
         """
-        return f"{number(self.median)} ({number(self.low)} to {number(self.high)})"
+        middle = number(self.median)
+        return middle if self.low == self.high else f"{middle} ({number(self.low)} to {number(self.high)})"
 
 
 def spread(values: Sequence[float]) -> Spread:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from tests.benchmarks.measure import number
+from tests.benchmarks.measure import number, spread
 from tests.benchmarks.startup import FirstRun
 from tests.benchmarks.throughput import MODELS, PEER, Comparison
 
@@ -34,7 +34,7 @@ def draw(comparisons: Sequence[Comparison], run: FirstRun | None, file: Path) ->
 def _draw_bars(axis: Any, comparison: Comparison) -> None:
     rates = {f"Clast\n{MODELS[model]}": comparison.rate(model).median for model in comparison.clast}
     if comparison.peer is not None:
-        rates[f"{PEER}\nbpm/rotational"] = float(sorted(comparison.peer.rate)[len(comparison.peer.rate) // 2])
+        rates[f"{PEER}\nbpm/rotational"] = spread(comparison.peer.rate).median
     colours = [PEER_COLOUR if name.startswith(PEER) else CLAST_COLOUR for name in rates]
     bars = axis.bar(list(rates), list(rates.values()), color=colours, width=0.65)
     axis.bar_label(bars, [number(rate) for rate in rates.values()], padding=2)
@@ -51,7 +51,7 @@ def _draw_speed(axis: Any, run: FirstRun) -> None:
     rows = run.told["speed"]
     strain = [0.0, *(100.0 * row["strain"] for row in rows)]
     rate = [row["steps_per_s"] for row in rows]
-    axis.stairs(rate, strain, color=CLAST_COLOUR, linewidth=1.8)
+    axis.stairs(rate, strain, color=CLAST_COLOUR, linewidth=1.8, baseline=None)
     axis.set_ylim(0.0, 1.12 * max(rate))
     axis.set_xlabel("strain in %")
     axis.set_ylabel("steps per CPU second")

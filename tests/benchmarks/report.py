@@ -9,6 +9,7 @@ from pathlib import Path
 from tests.benchmarks import tables
 from tests.benchmarks.features import Cost
 from tests.benchmarks.machine import Machine
+from tests.benchmarks.measure import number
 from tests.benchmarks.startup import FirstRun, Wait
 from tests.benchmarks.throughput import Comparison
 
@@ -24,8 +25,12 @@ has no counterpart of Models 2 and 3: its bonds are elastic and brittle, like Mo
 
 A rate is steps per CPU second (user and system): of LAMMPS from the difference of two runs of different length, of \
 Clast from the same steps timed inside the process, so that neither set-up nor compilation counts. Tables give the \
-median, in brackets the smallest and largest. The force on the moving plate at the last step shows that both compute \
-the same scene."""
+median, in brackets the smallest and largest. The force on the grain's moving plate at the last step shows that both \
+compute the same scene."""
+
+ALONE = """\
+A rate is steps per CPU second (user and system) on one thread, timed inside the process, so that neither set-up nor \
+compilation counts. Tables give the median, in brackets the smallest and largest."""
 
 
 @dataclass
@@ -73,14 +78,16 @@ def _opening(found: Measured) -> list[str]:
             f"Other programs were running ({machine.busy:.1f} processes per core at the start): wall times are upper "
             "bounds, rates are too low; the ratios hold better, as both codes took turns."
         )
-    return [*parts, HOW] if found.comparisons else parts
+    if found.comparisons:
+        parts.append(HOW if any(c.peer is not None for c in found.comparisons) else ALONE)
+    return parts
 
 
 def _comparison(comparison: Comparison, costs: dict[str, Cost]) -> list[str]:
     body, window = comparison.body, comparison.window
     what = {"grain": "One grain", "array": "125 grains side by side"}[body.name]
-    size = f"{len(body.position)} particles, {len(body.ends)} bonds"
-    steps = f"Steps {window.first} to {window.last}, {window.repeats} turns."
+    size = f"{number(len(body.position))} particles, {number(len(body.ends))} bonds"
+    steps = f"Steps {window.first} to {window.last}, {window.repeats} {'turn' if window.repeats == 1 else 'turns'}."
     return [f"## {what}: {size}", steps, tables.throughput(comparison, costs)]
 
 

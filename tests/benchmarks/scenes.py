@@ -67,7 +67,8 @@ class Body:
     @property
     def lengths(self) -> NDArray[np.float64]:
         """Initial length of every bond in m."""
-        return np.linalg.norm(self.position[self.ends[:, 1]] - self.position[self.ends[:, 0]], axis=1)
+        vectors = self.position[self.ends[:, 1]] - self.position[self.ends[:, 0]]
+        return np.asarray(np.linalg.norm(vectors, axis=1), np.float64)
 
     @property
     def bottom(self) -> float:

@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 from tests.benchmarks.measure import ROOT, Child, Spread, clast, run_child, say, spread, worker
 
 CONFIG = ROOT / "configs" / "crush_grain.yaml"
-SHORT = ("time.end.strain=0.03",)
-OUTPUT = {"samples": "samples", "frames": "frames", "saving": "flushing and checkpoint"}
+SHORT = ("time.end.strain=0.03", "output.frames=12", "output.samples=60")
+"""The beginning of the ready scene, with as many samples and frames per step as the whole."""
+OUTPUT = {"samples": "samples", "frames": "frames, each flushed to disk", "saving": "checkpoints"}
 
 
 class Wait(NamedTuple):
@@ -61,13 +62,27 @@ class FirstRun:
         return float(self.told["spent_s"].get("lists", 0.0))
 
 
-def measure_waits(repeats: int) -> list[Wait]:
-    """Measure what is waited for when everything is compiled."""
+def measure_start(repeats: int, short: bool) -> tuple[FirstRun, list[Wait]]:
+    """Run the ready scene with empty caches, then measure what is waited for once these are filled."""
+    with tempfile.TemporaryDirectory() as empty:
+        folder = Path(empty)
+        caches = {"CLAST_CACHE": str(folder / "loops"), "NUMBA_CACHE_DIR": str(folder / "numba")}
+        return _first_run(folder, caches, short), _waits(repeats, caches)
+
+
+def _first_run(folder: Path, caches: dict[str, str], short: bool) -> FirstRun:
+    """Do what ``make run`` does on a new machine; to 3 % strain when short."""
+    say("first run of configs/crush_grain.yaml, with empty caches")
+    command = [sys.executable, "-m", "tests.benchmarks.whole_run", str(CONFIG), str(folder / "run")]
+    child = run_child([*command, *(SHORT if short else ())], ROOT, caches)
+    return FirstRun(child, json.loads(child.output.strip().splitlines()[-1]), short)
+
+
+def _waits(repeats: int, caches: dict[str, str]) -> list[Wait]:
     say("start-up")
-    worker("compile_scenes", CONFIG)
-    asked = [clast("--help") for _ in range(repeats)]
-    checked = [clast("check", CONFIG) for _ in range(repeats)]
-    started = [worker("first_step", CONFIG) for _ in range(repeats)]
+    asked = [clast("--help", environment=caches) for _ in range(repeats)]
+    checked = [clast("check", CONFIG, environment=caches) for _ in range(repeats)]
+    started = [worker("first_step", CONFIG, environment=caches) for _ in range(repeats)]
     seconds = [told["at"] - child.launched_at for child, told in started]
     return [
         _wait("help", "clast --help", asked, 0.3),
@@ -84,14 +99,3 @@ def measure_waits(repeats: int) -> list[Wait]:
 
 def _wait(what: str, command: str, children: Sequence[Child], target: float) -> Wait:
     return Wait(what, command, spread([c.wall for c in children]), spread([c.cpu for c in children]), target)
-
-
-def measure_first_run(short: bool) -> FirstRun:
-    """Run the ready scene with empty caches, as ``make run`` does on a new machine; to 3 % strain when short."""
-    say("first run of configs/crush_grain.yaml, with empty caches")
-    with tempfile.TemporaryDirectory() as empty:
-        folder = Path(empty)
-        nothing = {"CLAST_CACHE": str(folder / "loops"), "NUMBA_CACHE_DIR": str(folder / "numba")}
-        command = [sys.executable, "-m", "tests.benchmarks.whole_run", str(CONFIG), str(folder / "run")]
-        child = run_child([*command, *(SHORT if short else ())], ROOT, nothing)
-    return FirstRun(child, json.loads(child.output.strip().splitlines()[-1]), short)

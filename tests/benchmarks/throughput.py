@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from tests.benchmarks.measure import BenchmarkError, Spread, run_child, say, spread, worker
 from tests.benchmarks.peer import Peer, write_input
-from tests.benchmarks.scenes import Body, scene, write_scene, write_tables
+from tests.benchmarks.scenes import Body, scene, write_scene
 
 MODELS = {"micro_cracking": "Model 3", "elastic_plastic": "Model 2", "elastic": "Model 1"}
 PEER = "LAMMPS"
@@ -77,7 +77,6 @@ def compare(
     body: Body, models: Sequence[str], window: Window, peer: Peer | None, problem: str, folder: Path
 ) -> Comparison:
     """Measure the peer and Clast's models by turns; loops are compiled beforehand."""
-    write_tables(body, folder)
     files = {model: write_scene(scene(body, model), folder / f"{body.name}_{model}.yaml") for model in models}
     clast = {model: Readings() for model in models}
     beside = None if peer is None else Readings()

@@ -11,6 +11,7 @@ import sys
 import time
 from collections import defaultdict
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -85,12 +86,12 @@ class Clocks(Listener):
         checkpoint.save = self.timed("saving", checkpoint.save)
         look = self.timed("frames", Frames.observe)
 
-        def observe(frames: Frames, simulation: Simulation) -> None:
-            look(frames, simulation)
+        def look_and_mark(*arguments: Any) -> None:
+            look(*arguments)
             if self.begun:
-                self.mark(simulation)
+                self.mark(arguments[-1])
 
-        Frames.observe = observe  # type: ignore[method-assign]
+        Frames.observe = look_and_mark  # type: ignore[method-assign, assignment]
 
 
 def peak_memory() -> float:
@@ -109,7 +110,7 @@ def speed(marks: Sequence[tuple[int, float, float, int]]) -> list[dict[str, floa
             "steps_per_s": (last[0] - first[0]) / max(last[2] - first[2], 1e-9),
             "lists": last[3] - first[3],
         }
-        for first, last in zip(rows, rows[1:], strict=False)
+        for first, last in pairwise(rows)
     ]
 
 

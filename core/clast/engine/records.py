@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+from types import UnionType
+from typing import Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +45,7 @@ def fields(record: type | None) -> list[Field]:
 
 def _size(record: type, name: str, hint: Any) -> int:
     arguments = get_args(hint)
-    if hint in (float, int):
+    if hint in (float, int) or (get_origin(hint) in (Union, UnionType) and float in arguments):
         return 1
     if get_origin(hint) is tuple and all(argument is float for argument in arguments):
         return len(arguments)
