@@ -9,7 +9,7 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.engine.assemble import Kernel, assemble
-from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, STALE, STEP, V, W, X
+from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, STALE, STEP, V, X
 from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.state import Floats, World
 from clast.engine.tables import intact, slot_view
@@ -173,10 +173,8 @@ class Simulation:
             return
         self.removed += int(leaving.sum())
         particles.present[leaving] = 0
-        particles.twist[leaving, V : V + 3] = 0.0
-        particles.twist[leaving, W : W + 3] = 0.0
-        particles.twist[leaving, INVERSE_MASS] = particles.twist[leaving, INVERSE_INERTIA] = 0.0
-        particles.acceleration[leaving] = 0.0
+        particles.twist[leaving] = particles.acceleration[leaving] = 0.0
+        particles.body[leaving, INVERSE_MASS] = particles.body[leaving, INVERSE_INERTIA] = 0.0
         if len(bonds.first):
             let_go = leaving[bonds.first] | leaving[bonds.second]
             slot_view(bonds, INTACT)[let_go] = 0.0

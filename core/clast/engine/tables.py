@@ -40,18 +40,26 @@ def particle_tables(
     Prescribed particles get no inverse mass and inertia, so nothing changes their velocity and spin.
     """
     n = len(position)
-    pose, twist = np.zeros((n, 8)), np.zeros((n, 8))
+    pose, twist, body = np.zeros((n, 8)), np.zeros((n, 8)), np.zeros((n, 4))
     pose[:, X : X + 3] = position
     pose[:, RADIUS] = radius
     pose[:, Q] = 1.0
     free = ~prescribed
     twist[:, V : V + 3] = velocity
     twist[:, W : W + 3] = spin
-    twist[free, INVERSE_MASS] = 1.0 / mass[free]
-    twist[free, INVERSE_INERTIA] = 2.5 / (mass[free] * radius[free] ** 2)
-    seen = twist.copy()
-    seen[:, MATERIAL] = material
-    return Particles(pose, twist, seen, np.zeros((n, 8)), np.zeros((n, 8)), np.zeros((n, 4)), np.ones(n, np.uint8))
+    body[:, MATERIAL] = material
+    body[free, INVERSE_MASS] = 1.0 / mass[free]
+    body[free, INVERSE_INERTIA] = 2.5 / (mass[free] * radius[free] ** 2)
+    return Particles(
+        pose,
+        twist,
+        body,
+        seen=twist.copy(),
+        load=np.zeros((n, 8)),
+        acceleration=np.zeros((n, 8)),
+        reference=np.zeros((n, 4)),
+        present=np.ones(n, np.uint8),
+    )
 
 
 def bond_table(plan: BondPlan, ends: Integers, reference: Any, constants: Any, start: Any, damping: Floats) -> Bonds:

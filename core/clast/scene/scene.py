@@ -32,7 +32,7 @@ class Scene:
         Index into ``config.materials``, and number of the grain, −1 for loose particles.
     prescribed : (n,) bool
     ends : (m, 2) int64
-        Particles of each bond.
+        Particles of each bond, the lower number first.
     diameter, length : (m,) float64
         Diameter and initial length of each bond in m.
     relieved : (n,) bool
@@ -95,7 +95,7 @@ def build_scene(config: SceneConfig) -> Scene:
         material=material,
         grain=grain,
         prescribed=np.concatenate([packing.prescribed for packing in packings]),
-        ends=bonds.ends,
+        ends=np.sort(bonds.ends, axis=1),
         diameter=bonds.diameter,
         length=_lengths(bonds, position),
         relieved=np.concatenate([np.full(len(p.radius), p.relieved) for p in packings]),

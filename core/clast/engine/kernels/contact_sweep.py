@@ -61,7 +61,7 @@ HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
 @inlined
 def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: Floats, lane: int) -> None:
     """Copy what the law needs of pair k into a lane."""
-    pose, twist, seen = particles.pose, particles.twist, particles.seen
+    pose, seen, body = particles.pose, particles.seen, particles.body
     i, j = pairs.first[k], pairs.second[k]
     for c in range(3):
         scratch[(D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
@@ -70,16 +70,16 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
     if RESTS:
         scratch[REST * LANES + lane] = pairs.rest[k]
     if VELOCITY_FORCES:
-        scratch[IM * LANES + lane] = twist[i, INVERSE_MASS] + twist[j, INVERSE_MASS]
+        scratch[IM * LANES + lane] = body[i, INVERSE_MASS] + body[j, INVERSE_MASS]
         for c in range(3):
             scratch[(DV + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
     if SPIN:
-        scratch[II * LANES + lane] = twist[i, INVERSE_INERTIA] + twist[j, INVERSE_INERTIA]
+        scratch[II * LANES + lane] = body[i, INVERSE_INERTIA] + body[j, INVERSE_INERTIA]
         for c in range(3):
             scratch[(WI + c) * LANES + lane] = seen[i, W + c]
             scratch[(WJ + c) * LANES + lane] = seen[j, W + c]
     if not ONE_MATERIAL:
-        row = numbers.contact_table[int(seen[i, MATERIAL]), int(seen[j, MATERIAL])]
+        row = numbers.contact_table[int(body[i, MATERIAL]), int(body[j, MATERIAL])]
         for c in range(CONTACT_CONSTANTS):
             scratch[(CONTACT_FREE + c) * LANES + lane] = row[c]
     if HISTORY > 0:
@@ -190,7 +190,7 @@ def apply(
     """Gather, compute and scatter one block of touching pairs."""
     for lane in range(count):
         gather(particles, pairs, active[lane], numbers, scratch, lane)
-    material = int(particles.seen[0, MATERIAL])
+    material = int(particles.body[0, MATERIAL])
     shared = row_constants(numbers.contact_table[material, material])
     for lane in range(count):
         contact_lane(scratch, lane, shared, dt, numbers.lever)

@@ -5,11 +5,11 @@ Scratch and bond tables hold *slots* of ``LANES`` numbers each: the value of slo
 
 LANES = 64
 
-# particle tables: one cache line of eight numbers a particle
+# particle tables: one cache line of eight numbers a particle, so that a row moves as two vectors of four
 X, RADIUS, Q = 0, 3, 4  # pose: position, radius, orientation (w, x, y, z)
-V, INVERSE_MASS, W, MATERIAL = 0, 3, 4, 7  # twist and seen: velocity, 1/m, angular velocity, material
-INVERSE_INERTIA = 7  # twist only
-F, M = 0, 4  # load and acceleration: force, moment; acceleration, angular acceleration
+V, W = 0, 4  # twist and seen: velocity, 0, angular velocity, 0
+F, M = 0, 4  # load and acceleration: force, 0, moment, 0; acceleration and angular acceleration likewise
+INVERSE_MASS, INVERSE_INERTIA, MATERIAL = 0, 1, 2  # body: 1/m, 1/I, material, 0
 
 # bond tables: the first two slots of every bond
 INDEX, INTACT = 0, 1

@@ -22,17 +22,15 @@ from .slots import (
 def kick(particles: Particles, k: int, time: float) -> None:
     """Change the velocity and spin of particle k by its acceleration over some time."""
     twist, acceleration = particles.twist, particles.acceleration
-    for c in range(3):
-        twist[k, V + c] += time * acceleration[k, F + c]
-        if SPIN:
-            twist[k, W + c] += time * acceleration[k, M + c]
+    for c in range(8 if SPIN else 4):
+        twist[k, c] += time * acceleration[k, c]
 
 
 @inlined
 def drift(particles: Particles, k: int, time: float) -> None:
     """Move and turn particle k with its velocity and spin over some time."""
     pose, twist = particles.pose, particles.twist
-    for c in range(3):
+    for c in range(4):
         pose[k, X + c] += time * twist[k, V + c]
     if ORIENTATION:
         q = turn(
@@ -48,10 +46,8 @@ def drift(particles: Particles, k: int, time: float) -> None:
 def predict(particles: Particles, k: int, time: float) -> None:
     """Set the velocity and spin that the forces on particle k will see."""
     twist, acceleration, seen = particles.twist, particles.acceleration, particles.seen
-    for c in range(3):
-        seen[k, V + c] = twist[k, V + c] + time * acceleration[k, F + c]
-        if SPIN:
-            seen[k, W + c] = twist[k, W + c] + time * acceleration[k, M + c]
+    for c in range(8 if SPIN else 4):
+        seen[k, c] = twist[k, c] + time * acceleration[k, c]
 
 
 @inlined
@@ -76,9 +72,8 @@ def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers) -> 
             drift(particles, k, stage.drift_before * dt)
         if VELOCITY_FORCES:
             predict(particles, k, stage.predict * dt)
-        for c in range(3):
-            particles.load[k, F + c] = 0.0
-            particles.load[k, M + c] = 0.0
+        for c in range(8):
+            particles.load[k, c] = 0.0
         if strayed(particles, k):
             stale = True
     return stale
@@ -87,9 +82,9 @@ def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers) -> 
 @inlined
 def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> None:
     """Turn loads and body forces on particle k into accelerations."""
-    twist, load, acceleration = particles.twist, particles.load, particles.acceleration
-    per_mass, per_inertia = twist[k, INVERSE_MASS], twist[k, INVERSE_INERTIA]
-    for c in range(3):
+    load, acceleration = particles.load, particles.acceleration
+    per_mass, per_inertia = particles.body[k, INVERSE_MASS], particles.body[k, INVERSE_INERTIA]
+    for c in range(4):
         acceleration[k, F + c] = per_mass * load[k, F + c]
         if SPIN:
             acceleration[k, M + c] = per_inertia * load[k, M + c]

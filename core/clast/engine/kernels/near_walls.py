@@ -28,7 +28,7 @@ def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: fl
     if WALLS:
         for w in range(len(walls.shape_kind)):
             for k in range(len(particles.pose)):
-                if particles.present[k] == 0 or particles.twist[k, INVERSE_MASS] == 0.0:
+                if particles.present[k] == 0 or particles.body[k, INVERSE_MASS] == 0.0:
                     continue
                 x = sub(row(particles.pose, k, 0), row(walls.displacement, w, 0))
                 found = wall_nearest(walls.shape_kind[w], walls.shape[w], x)

@@ -32,7 +32,7 @@ def row(table: Floats, k: int, column: int) -> Vec:
 @inlined
 def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec) -> Touch:
     """Return the contact of particle k (i) with a wall (j)."""
-    seen, twist = particles.seen, particles.twist
+    seen, body = particles.seen, particles.body
     radius = particles.pose[k, RADIUS]
     velocity, spin = ZERO, ZERO
     if VELOCITY_FORCES:
@@ -49,8 +49,8 @@ def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: flo
         radius=radius,
         radius_i=radius,
         radius_j=0.0,
-        inverse_mass=twist[k, INVERSE_MASS],
-        inverse_inertia=twist[k, INVERSE_INERTIA],
+        inverse_mass=body[k, INVERSE_MASS],
+        inverse_inertia=body[k, INVERSE_INERTIA],
     )
 
 
@@ -87,7 +87,7 @@ def sweep_walls(walls: Walls, pairs: WallPairs, particles: Particles, numbers: N
         if HISTORY > 0 and pairs.touching[p] != 0:
             spin = 0.5 * dot(touch.spin_i, n) * dt
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
-        constants = row_constants(numbers.contact_table[int(particles.seen[k, MATERIAL]), walls.material[w]])
+        constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
         load, history = contact_load(touch, constants, history, dt, CHOICES)
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if HISTORY > 0:
