@@ -91,7 +91,7 @@ def step_rows(scene: Scene, found: Limits, step: float) -> Rows:
     """Return every limit, the step that was chosen, and how far it is from instability."""
     names = {
         "bond network 2/omega_max": found.network,
-        "the same with damping": found.stable,
+        "the same with damping": found.network * found.damping,
         "single bond, Eqs. 16-17": found.bond,
         "Rayleigh, Eq. 15": found.rayleigh,
         "Hertz impact at 1 m/s, 1/20": found.contact,

@@ -24,6 +24,9 @@ class _Commands(click.Group):
         except ClastError as error:
             click.echo(str(error), err=True)
             ctx.exit(error.exit_code)
+        except KeyboardInterrupt:
+            click.echo("stopped by SIGINT", err=True)
+            ctx.exit(130)
 
 
 _file = click.argument("file", type=click.Path(path_type=Path))

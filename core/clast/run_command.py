@@ -68,7 +68,9 @@ class Lines(Listener):
 
     def compiling(self) -> None:
         """Tell that the user must wait once."""
-        self.say("compiling kernels for this kind of scene, once (about half a minute)")
+        self.say(
+            "compiling kernels for this kind of scene, once (about half a minute; Ctrl-C is heard when it is done)"
+        )
 
     def started(self, simulation: Simulation) -> None:
         """Tell the size of the run."""

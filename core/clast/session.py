@@ -13,7 +13,7 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
-from clast.errors import ClastError, RunError
+from clast.errors import RunError
 from clast.parts.writer import Written
 from clast.results import checkpoint, curves, summary
 from clast.results.frames import Frames
@@ -81,6 +81,7 @@ def run_scene(
     """
     listener, folder = listener or Listener(), Path(folder)
     prepare_folder(folder, resume)
+    session = None
     try:
         listener.building()
         simulation = Simulation(config)
@@ -90,7 +91,11 @@ def run_scene(
         elapsed, steps = session.advance()
         return session.finish(elapsed, steps)
     except KeyboardInterrupt:  # before or after the step loop, which handles signals itself
-        raise RunInterruptedError(signal.SIGINT) from None
+        raise RunInterruptedError(signal.SIGINT, resumable=session is not None) from None
+    finally:
+        if session is None:
+            with suppress(OSError):
+                folder.rmdir()  # only when nothing was written
 
 
 def prepare_folder(folder: Path, resume: bool) -> None:
@@ -154,7 +159,7 @@ class _Session:
                 self.save()
                 raise
             finally:
-                with suppress(RunError, OSError):
+                with suppress(RunError, OSError, RuntimeError):
                     self.store.keep_cracks(simulation)
                     self.store.close(complete=simulation.step >= simulation.last_step)
         return elapsed, simulation.step - first
@@ -187,8 +192,10 @@ class _Session:
 
     def _write(self, chosen: Any, run: Any) -> Written:
         path = self.folder / chosen.part.file
+        if chosen.part.needs_frames and run.n_frames == 0:
+            return Written(None, "the run keeps no frames (output.frames: 0)")
         try:
             result = chosen.part.write(run, chosen.params, path)
-        except (ClastError, OSError) as error:
-            return Written(None, f"not written: {error}")
+        except Exception as error:  # results are safe on disk; no writer, built in or not, may hide them
+            return Written(None, f"not written: {error or type(error).__name__}")
         return result if isinstance(result, Written) else Written(path)

@@ -11,6 +11,7 @@ from clast.config.scene import SceneConfig
 from clast.engine.assemble import Kernel, assemble
 from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, STALE, STEP, V, X
 from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
+from clast.engine.rehearsal import readable_errors, try_laws
 from clast.engine.state import Floats, World
 from clast.engine.tables import intact, slot_view
 from clast.engine.time_step import Limits, choose_step, limits
@@ -66,6 +67,7 @@ class Simulation:
         self.skin = choose_skin(self.scene)
         self.gauge = Gauge(config)
         self.last_step = self.gauge.last_step(self.dt)
+        try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
         self.removed = 0
@@ -117,10 +119,14 @@ class Simulation:
         RunError
             If positions stop being numbers or a particle outruns its neighbours: the step was too large.
         """
-        while self.kernel.advance(self.world, step) == STALE:
+        while self._advance(step) == STALE:
             self._refuse_blow_up()
             self._remove_leavers()
             self.renew_lists()
+
+    def _advance(self, step: int) -> int:
+        with readable_errors(self.plan):
+            return self.kernel.advance(self.world, step)
 
     def renew_lists(self) -> None:
         """Search for neighbours at the present positions."""
@@ -157,7 +163,7 @@ class Simulation:
             raise RunError(
                 f"the run blew up at step {self.step} (t = {self.time:.4g} s): particle {k} "
                 f"{'is nowhere' if not np.isfinite(x).all() else 'moves farther than its radius in one step'}. "
-                f"The step is {self.dt:.4g} s, the limit of the bonds {self.limits.stable:.4g} s: take a smaller "
+                f"The step is {self.dt:.4g} s, the limit {self.limits.stable:.4g} s: take a smaller "
                 "time.step, or look for overlapping or very stiff parts with 'clast check --build'"
             )
 

@@ -45,6 +45,7 @@ def clast_register(registry: Registry) -> None:
             Params=figure.FigureParams,
             file=figure.FILE,
             write=figure.write_figure,
+            needs_frames=False,
         ),
     )
     registry.writer(

@@ -45,8 +45,8 @@ class Limits(NamedTuple):
 
     @property
     def stable(self) -> float:
-        """The step beyond which the bond network is unstable."""
-        return self.network * self.damping
+        """The step beyond which bonds are unstable, or an impact at 1 m/s is over within two steps."""
+        return min(self.network * self.damping, 10.0 * self.contact)
 
 
 def limits(scene: Scene, plan: Blueprint) -> Limits:
@@ -118,7 +118,7 @@ def choose_step(scene: Scene, found: Limits) -> float:
         raise ConfigError("time.step: no limit applies to this scene; give a fixed step, e.g. 'step: 1e-6 s'")
     if step > found.stable and not time.allow_unstable:
         raise ConfigError(
-            f"time.step: {step:.4g} s is above the stability limit {found.stable:.4g} s of the bonds; "
-            "take a smaller step, raise time.mass_scaling, or set time.allow_unstable to see it fail"
+            f"time.step: {step:.4g} s is above the stability limit {found.stable:.4g} s (bonds "
+            f"{found.network * found.damping:.4g} s, contacts {10.0 * found.contact:.4g} s); take a smaller step, raise time.mass_scaling, or set time.allow_unstable to see it fail"
         )
     return float(step)

@@ -34,6 +34,8 @@ class Writer:
         One line for ``clast plugins``.
     Params : type
         What the user writes under ``output.writers``.
+    needs_frames : bool
+        Whether it shows frames, so that it is skipped when a run keeps none.
     file : str
         Name of the file it writes inside the run folder.
     write : (run, params, path) -> Written
@@ -44,3 +46,4 @@ class Writer:
     Params: type[Params]
     file: str
     write: Callable[[Run, Any, Path], Written]
+    needs_frames: bool = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -36,21 +37,29 @@ def save(folder: Path, simulation: Simulation, notes: Mapping[str, Any]) -> Path
     RunError
         If the disk refuses; the last good checkpoint stays.
     """
-    import h5py
-
     path, draft = folder / FILE, folder / f"{FILE}.tmp"
     try:
-        with h5py.File(draft, "w") as file:
-            for name, array in state_arrays(simulation):
-                file[name] = array
-            file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
+        draft.write_bytes(_image(simulation, notes))
         _settle(draft)
         if path.exists():
             path.replace(folder / PREVIOUS)
         draft.replace(path)
     except OSError as error:
-        raise RunError(f"{path}: the checkpoint cannot be written ({error}); the one before is kept") from error
+        draft.unlink(missing_ok=True)
+        raise RunError(f"{path}: cannot be written ({error.strerror}); the checkpoint before it is kept") from error
     return path
+
+
+def _image(simulation: Simulation, notes: Mapping[str, Any]) -> bytes:
+    """Return the checkpoint as the bytes of an HDF5 file, made in memory so that a full disk cannot tear it."""
+    import h5py
+
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        for name, array in state_arrays(simulation):
+            file[name] = array
+        file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
+    return buffer.getvalue()
 
 
 def load(folder: Path, simulation: Simulation) -> dict[str, Any]:

@@ -28,14 +28,16 @@ class Frames:
         """Append the scene; bond loads are computed here, at the positions shown."""
         scene, particles = simulation.scene, simulation.world.particles
         gone = particles.present == 0
-        position = particles.pose[:, X : X + 3].astype(np.float32)
+        with np.errstate(over="ignore"):  # a run that blows up is reported by the simulation
+            position = particles.pose[:, X : X + 3].astype(np.float32)
+            velocity = particles.twist[:, V : V + 3].astype(np.float32)
         position[gone] = np.nan
         row = {
             "time": simulation.time,
             "step": simulation.step,
             "strain": simulation.gauge.strain(simulation.world.walls),
             "position": position,
-            "velocity": particles.twist[:, V : V + 3].astype(np.float32),
+            "velocity": velocity,
             "wall_displacement": simulation.world.walls.displacement,
         }
         if simulation.plan.orientation:

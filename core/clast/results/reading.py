@@ -12,7 +12,7 @@ from clast.errors import RunError
 
 RESULTS_FILE = "results.h5"
 SCHEMA = 1
-_NEEDED_GROUPS = ("particles", "bonds", "frames", "curves", "cracks")
+_NEEDED_GROUPS = ("particles", "bonds", "curves", "cracks")
 
 
 def open_results(folder: Path) -> Any:

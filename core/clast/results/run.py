@@ -159,8 +159,8 @@ class Run:
         self.curves: dict[str, NDArray[np.float64]] = common_length(file["curves"])
         self.cracks: dict[str, NDArray[Any]] = common_length(file["cracks"])
         self.crack_modes = strings(file["cracks/mode"].attrs["modes"])
-        self._frames = file["frames"]
-        self.n_frames = min(len(dataset) for dataset in self._frames.values())
+        self._frames = file.get("frames", {})
+        self.n_frames = min((len(dataset) for dataset in self._frames.values()), default=0)
         self.summary = read_json(self.folder / "summary.json")
         self.config = read_yaml(self.folder / "config.yaml")
         self.reference = _references(self.folder / "config.yaml", self.config)

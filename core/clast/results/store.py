@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from clast.simulation import Simulation
 
 FILE = "results.h5"
+SPARE = 2**18
+"""Bytes left free on the disk, so that the file can always be closed."""
 CRACKS = ("time", "bond", "i", "j", "position", "mode", "normal_stress", "shear_stress", "energy")
 GROWING = ("curves", "frames", "tracks/particles", "tracks/bonds")
 
@@ -77,11 +80,29 @@ class Store:
             columns.setdefault(name, []).append(np.array(value))
 
     def _write_pending(self) -> None:
+        self._need_room(
+            sum(row.nbytes for columns in self.pending.values() for rows in columns.values() for row in rows)
+        )
         for group, columns in self.pending.items():
             table = self._growing(group)
             for name, rows in columns.items():
                 self._extend(table, name, np.stack(rows))
         self.pending.clear()
+
+    def _need_room(self, wanted: int) -> None:
+        """Refuse to write when the disk is nearly full: HDF5 files do not survive a write that fails half-way.
+
+        Raises
+        ------
+        RunError
+            With what to do.
+        """
+        free = shutil.disk_usage(self.path.parent).free
+        if free < 2 * wanted + SPARE:
+            raise RunError(
+                f"{self.path}: the disk is full ({free / 1e6:.1f} MB free). Everything up to the last checkpoint is "
+                "kept: make room and go on with --resume"
+            )
 
     def _growing(self, group: str) -> Any:
         """Return a group, made when missing; its datasets keep the order in which they were made."""

@@ -38,6 +38,7 @@ def summarise(simulation: Simulation, curves: Curves, wall_time: float, steps_no
     """
     scene = simulation.scene
     label = fragments(len(scene.radius), scene.ends, simulation.bond_loads()[:, 0] > 0.0)
+    sizes = np.bincount(label[simulation.world.particles.present != 0])
     return {
         "name": simulation.config.name,
         "versions": versions(),
@@ -60,8 +61,9 @@ def summarise(simulation: Simulation, curves: Curves, wall_time: float, steps_no
         "bonds_broken": simulation.bonds_broken,
         "bonds_intact": simulation.bonds_intact,
         "particles_removed": simulation.removed,
-        "fragments": int(label.max()) + 1,
-        "largest_fragment_particles": int(np.bincount(label).max()),
+        "bonds_removed": len(scene.ends) - simulation.bonds_broken - simulation.bonds_intact,
+        "fragments": int(np.count_nonzero(sizes)),
+        "largest_fragment_particles": int(sizes.max(initial=0)),
         "memory_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
     } | compression_results(simulation, curves)
 

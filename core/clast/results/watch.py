@@ -18,8 +18,9 @@ LOOK_EVERY = 0.2
 class RunInterruptedError(RunError):
     """The run was asked to stop by Ctrl-C or SIGTERM; its exit code is 128 plus the signal's number."""
 
-    def __init__(self, number: int) -> None:
-        super().__init__(f"stopped by {signal.Signals(number).name}; go on with --resume")
+    def __init__(self, number: int, resumable: bool = True) -> None:
+        advice = "go on with --resume" if resumable else "nothing was written yet"
+        super().__init__(f"stopped by {signal.Signals(number).name}; {advice}")
         self.exit_code = 128 + number
 
 

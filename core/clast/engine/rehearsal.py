@@ -1,0 +1,165 @@
+"""Rehearsal: every law is called once in plain Python, so that its mistakes show before compiling, in its own words."""
+
+from __future__ import annotations
+
+import re
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from clast.engine.blueprint import Blueprint
+from clast.engine.records import columns, fields
+from clast.engine.sources import source_files
+from clast.errors import PluginError
+from clast.maths.rotation import IDENTITY
+from clast.maths.vec3 import ZERO
+from clast.parts.bond_kinematics import BondMotion, EndLoads
+from clast.parts.bond_model import BondLoad, RandomKey, Strain
+from clast.parts.contact_law import ContactLoad, Touch
+from clast.scene.plan import material_pairs
+from clast.scene.scene import Scene
+
+STRETCH = 1e-6
+
+
+def try_laws(scene: Scene, plan: Blueprint) -> None:
+    """Call the laws of a scene once each, on its first bond and its first pair of materials.
+
+    Raises
+    ------
+    PluginError
+        With file, line and function of what raised or returned something else than promised.
+    """
+    if plan.bonds is not None:
+        _try_bond(scene, plan)
+    if plan.contacts is not None:
+        _try_contact(scene, plan)
+
+
+def _try_bond(scene: Scene, plan: Blueprint) -> None:
+    assert plan.bonds is not None
+    assert scene.config.bonds is not None
+    model, kinematics, chosen = plan.bonds.model, plan.bonds.kinematics, scene.config.bonds.model
+    d, L0 = scene.bond_vectors[:1], scene.length[:1]
+    constants = _first(model.Constants, model.constants(chosen.params, scene.bond_geometry))
+    reference = _first(kinematics.Reference, kinematics.reference(d, L0))
+    start = _first(kinematics.State, kinematics.start(d, L0)) if kinematics.start else _zeros(kinematics.State)
+    x = tuple(float(c) for c in d[0] * (1.0 + STRETCH))
+    motion = BondMotion(x, IDENTITY, IDENTITY, ZERO, ZERO, ZERO)  # type: ignore[arg-type]
+    strain, frame, _ = _call(kinematics.measure, tuple, motion, reference, start, 0.0)
+    _expect(kinematics.measure, strain, Strain)
+    state = _zeros(model.State)
+    if model.flow is not None:
+        state = _call(model.flow, model.State, strain, constants, state)
+    load = _call(model.load, BondLoad, strain, constants, state)
+    _call(kinematics.end_loads, EndLoads, load, frame)
+    _call(model.failure, float, strain, load, constants, state)
+    _call(model.mode, int, strain, load, constants, state)
+    _call(model.energy, float, strain, constants, state)
+    if model.overload is not None and model.on_event is not None:
+        _call(model.overload, float, strain, constants, state)
+        _call(model.on_event, model.State, strain, constants, state, RandomKey(1, 0))
+
+
+def _try_contact(scene: Scene, plan: Blueprint) -> None:
+    assert plan.contacts is not None
+    assert scene.config.contacts is not None
+    law, params = plan.contacts.law, scene.config.contacts.law.params
+    r = float(scene.radius[0])
+    m = 1.0 / float(scene.mass[0])
+    touch = Touch(STRETCH * r, (0.0, 0.0, 1.0), (0.0, 0.0, -STRETCH), ZERO, ZERO, 0.5 * r, r, r, m, m / r**2)
+    for _, _, pair in material_pairs(scene)[:1]:
+        constants = _call(law.constants, law.Constants, params, pair)
+        history = _zeros(law.History)
+        load, _ = _call(law.load, tuple, touch, constants, history, 1e-6, plan.contacts.choices)
+        _expect(law.load, load, ContactLoad)
+        _call(law.energy, float, touch, constants, history, plan.contacts.choices)
+
+
+def _zeros(record: type | None) -> Any:
+    if record is None:
+        return None
+    return record(*(0.0 if field.size == 1 else (0.0,) * field.size for field in fields(record)))
+
+
+def _first(record: type | None, values: Any) -> Any:
+    """Return the record of the first bond."""
+    if record is None or not isinstance(values, record):
+        raise PluginError(f"{_name(record)} was expected from 'constants', 'reference' or 'start', given {values!r}")
+    row = [float(x) for x in columns(values, 1 if all(np.ndim(v) == 0 for v in values) else _longest(values))[0]]  # type: ignore[attr-defined]
+    parts, at = [], 0
+    for field in fields(record):
+        parts.append(row[at] if field.size == 1 else tuple(row[at : at + field.size]))
+        at += field.size
+    return record(*parts)
+
+
+def _longest(values: Any) -> int:
+    return max(
+        len(np.atleast_1d(v)) if f.size == 1 else len(np.atleast_2d(v))
+        for f, v in zip(fields(type(values)), values, strict=True)
+    )
+
+
+def _call(function: Callable[..., Any], result: type | None, *arguments: Any) -> Any:
+    try:
+        value = function(*arguments)
+    except Exception as error:  # whatever a law raises is told in its own words
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        where = f"{frame.filename}:{frame.lineno}" if frame.name != "_call" else _where(function)
+        raise PluginError(f"{where}: {function.__name__} raised {type(error).__name__}: {error}") from error
+    _expect(function, value, result)
+    return value
+
+
+def _expect(function: Callable[..., Any], value: Any, result: type | None) -> None:
+    numbers = (int, float, np.floating, np.integer, np.bool_)
+    good = isinstance(value, numbers) if result in (int, float) else result is None or isinstance(value, result)
+    if not good:
+        raise PluginError(f"{_where(function)}: {function.__name__} must return {_name(result)}, given {value!r}")
+
+
+def _name(record: type | None) -> str:
+    return "None" if record is None else record.__name__
+
+
+def _where(function: Callable[..., Any]) -> str:
+    code = getattr(function, "__code__", None)
+    return f"{code.co_filename}:{code.co_firstlineno}" if code is not None else repr(function)
+
+
+@contextmanager
+def readable_errors(plan: Blueprint) -> Iterator[None]:
+    """Turn what numba says of a law that cannot be compiled into the law's file and line.
+
+    Raises
+    ------
+    PluginError
+        Instead of numba's own error, which stays attached as its cause.
+    """
+    from numba.core.errors import NumbaError
+
+    try:
+        yield
+    except NumbaError as error:
+        raise PluginError(_explanation(plan, str(error))) from error
+
+
+def _explanation(plan: Blueprint, text: str) -> str:
+    own = {str(file) for file in source_files(plan.functions())}
+    places = [(file, line) for file, line in re.findall(r'File "([^"]+)", line (\d+)', text) if str(Path(file)) in own]
+    reasons = [
+        line.strip()
+        for line in text.splitlines()
+        if re.search(r"^(No implementation|.*Error:|Unknown|Use of|Untyped|Cannot)", line.strip())
+    ]
+    where = f"{places[-1][0]}:{places[-1][1]}" if places else "a law of this scene"
+    reason = reasons[-1] if reasons else text.strip().splitlines()[-1]
+    return (
+        f"{where}: cannot be compiled: {reason}. Laws may use floats, tuples, NamedTuples, 'if', 'for' over ranges and "
+        "the functions of math; call the law in plain Python to see that it is right"
+    )
