@@ -150,8 +150,12 @@ def readable_errors(plan: Blueprint) -> Iterator[None]:
 
 
 def _explanation(plan: Blueprint, text: str) -> str:
-    own = {str(file) for file in source_files(plan.functions())}
-    places = [(file, line) for file, line in re.findall(r'File "([^"]+)", line (\d+)', text) if str(Path(file)) in own]
+    own = {str(file.resolve()) for file in source_files(plan.functions())}
+    places = [
+        (file, line)
+        for file, line in re.findall(r'File "([^"]+)", line (\d+)', text)
+        if str(Path(file).resolve()) in own
+    ]
     reasons = [
         line.strip()
         for line in text.splitlines()

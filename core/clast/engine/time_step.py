@@ -117,8 +117,9 @@ def choose_step(scene: Scene, found: Limits) -> float:
     if not np.isfinite(step):
         raise ConfigError("time.step: no limit applies to this scene; give a fixed step, e.g. 'step: 1e-6 s'")
     if step > found.stable and not time.allow_unstable:
+        bonds, contacts = found.network * found.damping, 10.0 * found.contact
         raise ConfigError(
-            f"time.step: {step:.4g} s is above the stability limit {found.stable:.4g} s (bonds "
-            f"{found.network * found.damping:.4g} s, contacts {10.0 * found.contact:.4g} s); take a smaller step, raise time.mass_scaling, or set time.allow_unstable to see it fail"
+            f"time.step: {step:.4g} s is above the stability limit {found.stable:.4g} s (bonds {bonds:.4g} s, contacts "
+            f"{contacts:.4g} s); take a smaller step, raise time.mass_scaling, or set time.allow_unstable to see it fail"
         )
     return float(step)
