@@ -46,7 +46,9 @@ def main() -> None:
 @_file
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the run.")
 @_set
-@click.option("--threads", type=click.IntRange(min=1), default=1, show_default=True, help="Threads to use.")
+@click.option(
+    "--threads", type=click.IntRange(min=1), default=1, show_default=True, help="Threads to use; one is used so far."
+)
 @click.option("--resume", is_flag=True, help="Go on where the run in the folder stopped.")
 def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int, resume: bool) -> None:
     """Run the scene in FILE."""

@@ -30,6 +30,8 @@ def run(
         With a message for the user.
     """
     config = load(file, overrides)
+    if threads > 1:
+        print("one thread is used: this version computes every scene serially", flush=True)
     folder = output if output is not None else default_folder(config, resume)
     with console_listener(config) as listener:
         outcome = run_scene(config, folder, resume, listener)

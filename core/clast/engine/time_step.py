@@ -120,6 +120,6 @@ def choose_step(scene: Scene, found: Limits) -> float:
         bonds, contacts = found.network * found.damping, 10.0 * found.contact
         raise ConfigError(
             f"time.step: {step:.4g} s is above the stability limit {found.stable:.4g} s (bonds {bonds:.4g} s, contacts "
-            f"{contacts:.4g} s); take a smaller step, raise time.mass_scaling, or set time.allow_unstable to see it fail"
+            f"{contacts:.4g} s); take a smaller step, raise time.mass_scaling, or set time.allow_unstable"
         )
     return float(step)
