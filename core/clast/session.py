@@ -182,6 +182,10 @@ class _Session:
         with open_run(self.folder) as run:
             path = curves.write(self.folder / curves.FILE, {k: np.asarray(v) for k, v in run.curves.items()})
             written["curves"] = Written(path)
+            for what, tracks in run.tracks.items():
+                columns = curves.flattened(tracks, run.tracked[what], what.rstrip("s"))
+                file = self.folder / f"tracks_{what}.csv"
+                written[f"tracks of {what}"] = Written(curves.write(file, {"time_s": run.curves["time_s"], **columns}))
             told = summary.summarise(self.simulation, run.curves, elapsed, steps)
             written["summary"] = Written(summary.write(self.folder, told))
         with open_run(self.folder) as run:

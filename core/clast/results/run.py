@@ -106,6 +106,10 @@ class Run:
         Whether the run went to its end.
     curves : dict of str to (S,) float64
         The sampled columns, for example ``strain`` and ``stress_Pa``.
+    tracks : dict of str to dict of str to (S, k, ...) array
+        Full state of the ``particles`` and ``bonds`` under ``output.tracks``, at every sample.
+    tracked : dict of str to list of int
+        Numbers of those particles and bonds.
     cracks : dict of str to array
         One entry per broken bond: ``time``, ``bond``, ``i``, ``j``, ``position`` (k, 3), ``mode``,
         ``normal_stress``, ``shear_stress`` in Pa and ``energy`` in J.
@@ -158,6 +162,8 @@ class Run:
         self._read_scene(file)
         self.curves: dict[str, NDArray[np.float64]] = common_length(file["curves"])
         self.cracks: dict[str, NDArray[Any]] = common_length(file["cracks"])
+        self.tracks = {name: common_length(group) for name, group in file.get("tracks", {}).items()}
+        self.tracked = {name: group.attrs["numbers"].tolist() for name, group in file.get("tracks", {}).items()}
         self.crack_modes = strings(file["cracks/mode"].attrs["modes"])
         self._frames = file.get("frames", {})
         self.n_frames = min((len(dataset) for dataset in self._frames.values()), default=0)
