@@ -191,7 +191,7 @@ def draw(folder: Path, path: Path) -> None:
             axis.fill_between(
                 100 * mean.strain, mean[k] - deviation[k], mean[k] + deviation[k], color=colour, alpha=0.2, lw=0
             )
-    axes[0, 2].set(title="Model 3, five seeds each: mean and standard deviation", ylabel="force on the upper plate [N]")
+    axes[0, 2].set(title="Model 3, five seeds: mean ± deviation", ylabel="force on the upper plate [N]")
     axes[1, 2].set(ylabel="bonds broken")
     for axis in axes[1]:
         axis.set_xlabel("strain [%]")

@@ -118,7 +118,7 @@ def test_file_of_another_program_is_refused(tmp_path: Path) -> None:
         open_run(tmp_path)
 
 
-@pytest.mark.parametrize("name", ["frames", "curves", "bonds/ends"])
+@pytest.mark.parametrize("name", ["curves", "bonds/ends"])
 def test_missing_part_is_named(folder: Path, name: str) -> None:
     with h5py.File(folder / "results.h5", "a") as file:
         del file[name]
