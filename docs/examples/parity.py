@@ -20,6 +20,9 @@ SCENE = ROOT / "configs" / "parity" / "musen_grain_a.yaml"
 MUSEN = ROOT / "tests" / "data" / "musen" / "grain_a"
 REPEATS = range(5)
 STRAINS = (0.025, 0.05, 0.10, 0.15, 0.20)
+SCATTER = (0.054, 0.07, 0.085, 0.10, 0.11, 0.12)
+LABELS = {"musen": "Clast, MUSEN's choices", "defaults": "Clast, defaults"}
+COLOURS = ("black", "tab:blue", "tab:orange")
 
 GLASS = {"young_modulus": "564.26 MPa", "poisson_ratio": 0.2}
 YIELDS = GLASS | {"yield_stress": "2 MPa"}
@@ -149,7 +152,7 @@ def print_agreement(folder: Path) -> None:
             for limit in limits:
                 away = 1e3 * (ours.force - theirs.force)[theirs.strain < limit]
                 size = f"{np.sqrt(np.mean(away**2)):.2f} | {np.abs(away).max():.2f}"
-                print(f"| {model}, {choices} | {100 * limit:.1f} | {size} |")
+                print(f"| {model}, {LABELS[choices]} | {100 * limit:.1f} | {size} |")
 
 
 def print_choices(folder: Path) -> None:
@@ -159,7 +162,8 @@ def print_choices(folder: Path) -> None:
         print("|---|---|---|---|---|---|")
         print(row("MUSEN", musen(model), table(f"breaks_{model}")["strain"][0]))
         for name in ("musen", *SWITCHES, "defaults"):
-            print(row(name, read(folder, f"{model}/{name}_0"), first_break(folder, f"{model}/{name}_0")))
+            label = LABELS.get(name, f"+ {name.replace('_', ' ')}")
+            print(row(label, read(folder, f"{model}/{name}_0"), first_break(folder, f"{model}/{name}_0")))
 
 
 def print_statistics(folder: Path) -> None:
@@ -168,11 +172,21 @@ def print_statistics(folder: Path) -> None:
     print(f"\n| five runs each | {heads} | broken at 20 % |\n|---|{'---|' * len(STRAINS)}---|")
     for model, name in {"model1": "model1", "model3": "model3_eps0075"}.items():
         found = {"MUSEN": musen_band(name)}
-        found |= {f"Clast, {choices}": band(folder, f"{model}/{choices}") for choices in ("musen", "defaults")}
+        found |= {label: band(folder, f"{model}/{choices}") for choices, label in LABELS.items()}
         for label, (mean, deviation) in found.items():
             cells = [f"{at(mean, mean.force, e):.2f} ± {at(mean, deviation.force, e):.2f}" for e in STRAINS]
             cells.append(f"{mean.broken[-1]:.0f} ± {deviation.broken[-1]:.0f}")
             print(f"| {model}, {label} | {' | '.join(cells)} |")
+
+
+def print_scatter(folder: Path) -> None:
+    """Print how far five runs of Model 1 that differ by next to nothing are apart."""
+    heads = " | ".join(f"{100 * strain:g} %" for strain in SCATTER)
+    print(f"\n| standard deviation in N at | {heads} |\n|---|{'---|' * len(SCATTER)}")
+    found = {"MUSEN": musen_band("model1")}
+    found |= {label: band(folder, f"model1/{name}") for name, label in LABELS.items()}
+    for label, (mean, deviation) in found.items():
+        print(f"| {label} | {' | '.join(f'{at(mean, deviation.force, strain):.1e}' for strain in SCATTER)} |")
 
 
 def draw(folder: Path, path: Path) -> None:
@@ -197,10 +211,6 @@ def draw(folder: Path, path: Path) -> None:
         axis.set_xlabel("strain [%]")
     axes[0, 0].legend(frameon=False)
     figure.savefig(path, dpi=120)
-
-
-LABELS = {"musen": "Clast, MUSEN's choices", "defaults": "Clast, defaults"}
-COLOURS = ("black", "tab:blue", "tab:orange")
 
 
 def draw_model(axes: np.ndarray, folder: Path, model: str) -> None:
@@ -230,6 +240,7 @@ def main() -> None:
     print_agreement(given.runs)
     print_choices(given.runs)
     print_statistics(given.runs)
+    print_scatter(given.runs)
     draw(given.runs, given.figure)
 
 
