@@ -14,6 +14,7 @@ from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, RandomKey,
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
+from clast_plugins.bond_models.strain_limit import MODES, elastic_part, failure, mode
 
 NORMAL, SHEAR = 0, 1
 
@@ -175,28 +176,6 @@ def on_event(strain: Strain, c: Constants, state: State, key: RandomKey) -> Stat
     return State(state.axial_plastic, add(state.shear_plastic, sliding), state.normal_drops, state.shear_drops + 1.0)
 
 
-def failure(strain: Strain, load: BondLoad, c: Constants, state: State) -> float:
-    """Return the axial strain as a share of its limit, Eq. 13."""
-    axial = c.per_L * strain.axial
-    return max(axial * c.per_tensile_limit, -axial * c.per_compressive_limit)
-
-
-def mode(strain: Strain, load: BondLoad, c: Constants, state: State) -> int:
-    """Return 0 for a break by stretching, 1 by shortening."""
-    return 0 if strain.axial > 0.0 else 1
-
-
-def elastic_part(strain: Strain, c: Constants, state: State) -> Strain:
-    """Return the strain measures less what the micro-cracks opened."""
-    L0 = 1.0 / c.per_L
-    return Strain(
-        strain.axial - L0 * state.axial_plastic,
-        sub(strain.shear, scale(L0, state.shear_plastic)),
-        strain.twist,
-        strain.bending,
-    )
-
-
 def energy(strain: Strain, c: Constants, state: State) -> float:
     """Return the elastic energy in J."""
     return beam_energy(elastic_part(strain, c, state), load(strain, c, state))
@@ -217,7 +196,7 @@ def clast_register(registry: Registry) -> None:
             failure=failure,
             mode=mode,
             energy=energy,
-            modes=("strain in tension", "strain in compression"),
+            modes=MODES,
             State=State,
             overload=overload,
             on_event=on_event,

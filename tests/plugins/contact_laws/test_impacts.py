@@ -68,7 +68,7 @@ def test_restitution_0_is_the_limit_of_small_ones():
 
 
 def test_cutting_the_pull_off_leaves_a_larger_restitution_as_documented():
-    """NUMERICS: e = 0.5 becomes 0.55."""
+    """Clipped damping raises e = 0.5 to 0.55."""
     _, approach, _ = impact(damped(0.5, tension_cutoff=True), until="letting_go")
     assert -approach / SPEED == pytest.approx(0.55, abs=0.005)
 
