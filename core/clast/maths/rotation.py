@@ -43,14 +43,20 @@ def relative(p: Quat, q: Quat) -> Quat:
     )
 
 
-def matrix(q: Quat) -> Matrix:
-    """Return the rotation matrix of a unit quaternion, which takes the material frame into space.
+def matrix(q: Quat, g: float = 2.0) -> Matrix:
+    """Return the rotation matrix of a quaternion of any length, which takes the material frame into space.
+
+    Parameters
+    ----------
+    q : quaternion
+    g : float
+        2/|q|²; 2 for a unit quaternion.
 
     >>> matrix((0.0, 0.0, 0.0, 1.0))
     ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0))
     """
     w, x, y, z = q
-    x2, y2, z2 = x + x, y + y, z + z
+    x2, y2, z2 = g * x, g * y, g * z
     wx, wy, wz = w * x2, w * y2, w * z2
     xx, xy, xz = x * x2, x * y2, x * z2
     yy, yz, zz = y * y2, y * z2, z * z2

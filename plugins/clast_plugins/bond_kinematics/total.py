@@ -96,21 +96,16 @@ def measure(motion: BondMotion, ref: Reference, state: None, dt: float) -> tuple
     p = relative(q_i, q_j)
     s = 1.0 if p[0] >= 0.0 else -1.0
     a = 1.0 + s * p[0]  # 2 cos²(θ/4)
-    k = 1.0 / sqrt(a + a)
-    q_m = (
-        k * (q_i[0] + s * q_j[0]),
-        k * (q_i[1] + s * q_j[1]),
-        k * (q_i[2] + s * q_j[2]),
-        k * (q_i[3] + s * q_j[3]),
-    )
-    # t = tan(θ/4) along the axis of the relative rotation; θ = 4 g t with g = atan|t|/|t|
-    t = scale(s * (2.0 * k * k), (p[1], p[2], p[3]))
+    g = 1.0 / a  # 2/|q_i + s q_j|²
+    both = (q_i[0] + s * q_j[0], q_i[1] + s * q_j[1], q_i[2] + s * q_j[2], q_i[3] + s * q_j[3])
+    # t = tan(θ/4) along the axis of the relative rotation; θ = 4 t atan|t|/|t|
+    t = scale(s * g, (p[1], p[2], p[3]))
     z = dot(t, t)
     h = -(1.0 + arctangent_rest(z) * (1.0 + z))
     f = 1.0 - h * z
     theta = scale(2.0 * a * f, t)
 
-    R_m = matrix(q_m)
+    R_m = matrix(both, g)
     length = sqrt(dot(motion.d, motion.d))
     per_length = 1.0 / length
     n = rotate_back(R_m, scale(per_length, motion.d))

@@ -9,6 +9,7 @@ from clast.maths.vec3 import ZERO, across, add, along, cross, norm, scale, sub
 from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import RandomKey
 
+from .lanes import put, vector
 from .layout import (
     BOND_D,
     BOND_F,
@@ -74,24 +75,6 @@ def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> 
             scratch[(BOND_V + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
             scratch[(BOND_WI + c) * LANES + lane] = seen[i, W + c]
             scratch[(BOND_WJ + c) * LANES + lane] = seen[j, W + c]
-
-
-@inlined
-def vector(scratch: Floats, slot: int, lane: int) -> tuple[float, float, float]:
-    """Read three slots of a lane."""
-    return (
-        scratch[slot * LANES + lane],
-        scratch[(slot + 1) * LANES + lane],
-        scratch[(slot + 2) * LANES + lane],
-    )
-
-
-@inlined
-def put(scratch: Floats, slot: int, lane: int, a: tuple[float, float, float]) -> None:
-    """Write three slots of a lane."""
-    scratch[slot * LANES + lane] = a[0]
-    scratch[(slot + 1) * LANES + lane] = a[1]
-    scratch[(slot + 2) * LANES + lane] = a[2]
 
 
 @inlined

@@ -10,7 +10,7 @@ from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
 from clast.maths.vec3 import ZERO, add, cross, dot, scale, sub
 from clast.parts.contact_law import Touch
 
-from .bond_sweep import put, vector
+from .lanes import put, vector
 from .layout import (
     CONTACT_F,
     CONTACT_FREE,
@@ -60,15 +60,9 @@ HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
 
 @inlined
 def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: Floats, lane: int) -> None:
-    """Copy what the law needs of pair k into a lane."""
-    pose, seen, body = particles.pose, particles.seen, particles.body
+    """Copy what else the law needs of pair k into a lane."""
+    seen, body = particles.seen, particles.body
     i, j = pairs.first[k], pairs.second[k]
-    for c in range(3):
-        scratch[(D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
-    scratch[RI * LANES + lane] = pose[i, RADIUS]
-    scratch[RJ * LANES + lane] = pose[j, RADIUS]
-    if RESTS:
-        scratch[REST * LANES + lane] = pairs.rest[k]
     if VELOCITY_FORCES:
         scratch[IM * LANES + lane] = body[i, INVERSE_MASS] + body[j, INVERSE_MASS]
         for c in range(3):
@@ -157,17 +151,20 @@ def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: i
 
 
 @inlined
-def separated(particles: Particles, pairs: Pairs, k: int) -> bool:
-    """Tell whether the particles of pair k do not touch."""
+def meet(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: int) -> bool:
+    """Copy the distance and the radii of pair k into a lane; tell whether the particles touch."""
     pose = particles.pose
     i, j = pairs.first[k], pairs.second[k]
-    dx = pose[j, X] - pose[i, X]
-    dy = pose[j, X + 1] - pose[i, X + 1]
-    dz = pose[j, X + 2] - pose[i, X + 2]
-    s = pose[i, RADIUS] + pose[j, RADIUS]
+    d = (pose[j, X] - pose[i, X], pose[j, X + 1] - pose[i, X + 1], pose[j, X + 2] - pose[i, X + 2])
+    r_i, r_j = pose[i, RADIUS], pose[j, RADIUS]
+    put(scratch, D, lane, d)
+    scratch[RI * LANES + lane] = r_i
+    scratch[RJ * LANES + lane] = r_j
+    reach = r_i + r_j
     if RESTS:
-        s -= pairs.rest[k]
-    return bool(dx * dx + dy * dy + dz * dz >= s * s)
+        scratch[REST * LANES + lane] = pairs.rest[k]
+        reach -= pairs.rest[k]
+    return not dot(d, d) >= reach * reach
 
 
 @inlined
@@ -211,7 +208,7 @@ def sweep_contacts(
     """Add the loads of all touching pairs to the particles, in the order of the pairs."""
     count = 0
     for k in range(len(pairs.first)):
-        if separated(particles, pairs, k):
+        if not meet(particles, pairs, k, scratch, count):
             if HISTORY > 0 and pairs.touching[k] != 0:
                 pairs.touching[k] = 0
             continue

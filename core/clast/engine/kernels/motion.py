@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from clast.engine.compiler import inlined, routine
-from clast.engine.state import Numbers, Particles, Walls
+from clast.engine.state import Floats, Numbers, Particles, Walls
 from clast.maths.rotation import turn
 from clast.parts.integrator import Stage
 
-from .layout import INVERSE_INERTIA, INVERSE_MASS, F, M, Q, V, W, X
+from .lanes import put, vector
+from .layout import INVERSE_INERTIA, INVERSE_MASS, LANES, TURN_Q, TURN_W, F, M, Q, V, W, X
 from .slots import (
     BODY_FORCES,
     ORIENTATION,
@@ -28,18 +29,36 @@ def kick(particles: Particles, k: int, time: float) -> None:
 
 @inlined
 def drift(particles: Particles, k: int, time: float) -> None:
-    """Move and turn particle k with its velocity and spin over some time."""
+    """Move particle k with its velocity over some time."""
     pose, twist = particles.pose, particles.twist
     for c in range(4):
         pose[k, X + c] += time * twist[k, V + c]
-    if ORIENTATION:
-        q = turn(
-            (pose[k, Q], pose[k, Q + 1], pose[k, Q + 2], pose[k, Q + 3]),
-            (twist[k, W], twist[k, W + 1], twist[k, W + 2]),
-            time,
-        )
-        for c in range(4):
-            pose[k, Q + c] = q[c]
+
+
+@routine
+def turn_all(particles: Particles, scratch: Floats, time: float) -> None:
+    """Turn all particles with their spins over some time, in blocks of lanes."""
+    pose, twist = particles.pose, particles.twist
+    for begin in range(0, len(pose), LANES):
+        count = min(LANES, len(pose) - begin)
+        for lane in range(count):
+            for c in range(4):
+                scratch[(TURN_Q + c) * LANES + lane] = pose[begin + lane, Q + c]
+                scratch[(TURN_W + c) * LANES + lane] = twist[begin + lane, W + c]
+        for lane in range(LANES):  # always all: a loop of fixed length vectorises
+            turn_lane(scratch, lane, time)
+        for lane in range(count):
+            for c in range(4):
+                pose[begin + lane, Q + c] = scratch[(TURN_Q + c) * LANES + lane]
+
+
+@inlined
+def turn_lane(scratch: Floats, lane: int, time: float) -> None:
+    """Turn the particle of one lane."""
+    w, (x, y, z) = scratch[TURN_Q * LANES + lane], vector(scratch, TURN_Q + 1, lane)
+    q = turn((w, x, y, z), vector(scratch, TURN_W, lane), time)
+    scratch[TURN_Q * LANES + lane] = q[0]
+    put(scratch, TURN_Q + 1, lane, (q[1], q[2], q[3]))
 
 
 @inlined
@@ -61,7 +80,7 @@ def strayed(particles: Particles, k: int) -> bool:
 
 
 @inlined
-def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers) -> bool:
+def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers, scratch: Floats) -> bool:
     """Kick and drift to the force evaluation, clear loads; tell whether neighbour lists are stale."""
     dt = numbers.dt
     stale = False
@@ -76,6 +95,8 @@ def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers) -> 
             particles.load[k, c] = 0.0
         if strayed(particles, k):
             stale = True
+    if ORIENTATION and stage.drift_before != 0.0:
+        turn_all(particles, scratch, stage.drift_before * dt)
     return stale
 
 
@@ -100,7 +121,7 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
 
 
 @inlined
-def move_after_forces(particles: Particles, stage: Stage, numbers: Numbers, time: float) -> None:
+def move_after_forces(particles: Particles, stage: Stage, numbers: Numbers, scratch: Floats, time: float) -> None:
     """Compute accelerations, kick, and drift to the end of the stage."""
     dt = numbers.dt
     for k in range(len(particles.pose)):
@@ -109,6 +130,8 @@ def move_after_forces(particles: Particles, stage: Stage, numbers: Numbers, time
             kick(particles, k, stage.kick_after * dt)
         if stage.drift_after != 0.0:
             drift(particles, k, stage.drift_after * dt)
+    if ORIENTATION and stage.drift_after != 0.0:
+        turn_all(particles, scratch, stage.drift_after * dt)
 
 
 @routine

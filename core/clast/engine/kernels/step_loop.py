@@ -69,7 +69,7 @@ def advance(world: World, steps: int) -> int:
         stage = stage_now(clock, numbers.start_kick)
         time = clock[STEP] * numbers.dt
         if clock[MOVED] == 0:
-            stale = move_before_forces(particles, stage, numbers)
+            stale = move_before_forces(particles, stage, numbers, world.scratch)
             if WALLS:
                 stale = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.wall_reach2) or stale
                 clear_wall_forces(world.walls)
@@ -83,7 +83,7 @@ def advance(world: World, steps: int) -> int:
             sweep_contacts(world.pairs, world.bonds, particles, numbers, world.scratch, active, span)
         if WALLS:
             sweep_walls(world.walls, world.wall_pairs, particles, numbers, span)
-        move_after_forces(particles, stage, numbers, time)
+        move_after_forces(particles, stage, numbers, world.scratch, time)
         if WALLS:
             move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.wall_reach2)
         count_stage(world)

@@ -1,0 +1,26 @@
+"""Vectors in the lanes of scratch tables."""
+
+from __future__ import annotations
+
+from clast.engine.compiler import inlined
+from clast.engine.state import Floats
+
+from .layout import LANES
+
+
+@inlined
+def vector(scratch: Floats, slot: int, lane: int) -> tuple[float, float, float]:
+    """Read three slots of a lane."""
+    return (
+        scratch[slot * LANES + lane],
+        scratch[(slot + 1) * LANES + lane],
+        scratch[(slot + 2) * LANES + lane],
+    )
+
+
+@inlined
+def put(scratch: Floats, slot: int, lane: int, a: tuple[float, float, float]) -> None:
+    """Write three slots of a lane."""
+    scratch[slot * LANES + lane] = a[0]
+    scratch[(slot + 1) * LANES + lane] = a[1]
+    scratch[(slot + 2) * LANES + lane] = a[2]
