@@ -6,11 +6,30 @@ without a traceback and ends with the error's ``exit_code``.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+KeyPath = tuple[str | int, ...]
+"""Where something stands in a scene: keys, and numbers of list entries."""
+
 
 class ClastError(Exception):
-    """Base of all errors meant for the user."""
+    """Base of all errors meant for the user.
+
+    Parameters
+    ----------
+    message : str
+    at : key path or None
+        Key of the part that the message is about, ``("porosity",)`` or ``()`` for the part as a whole: whoever knows
+        the scene file puts file, line and the whole key in front (:meth:`clast.config.scene.SceneConfig.placing`).
+        None where the message itself begins with its place.
+    """
 
     exit_code = 1
+
+    def __init__(self, message: str, at: KeyPath | None = ()) -> None:
+        super().__init__(message)
+        self.at = at
 
 
 class ConfigError(ClastError):
@@ -29,3 +48,22 @@ class PackingError(ClastError):
 
 class RunError(ClastError):
     """A run cannot start, go on, or be resumed."""
+
+
+@contextmanager
+def about(*keys: str | int) -> Iterator[None]:
+    """Say that errors raised inside are about these keys of a part; see ``ClastError.at``.
+
+    >>> try:
+    ...     with about("particles"):
+    ...         raise ConfigError("the file is empty")
+    ... except ConfigError as error:
+    ...     error.at
+    ('particles',)
+    """
+    try:
+        yield
+    except ClastError as error:
+        if error.at is not None:
+            error.at = (*keys, *error.at)
+        raise

@@ -136,7 +136,7 @@ def test_particles_that_leave_the_domain_are_removed_and_counted(collision: Path
 
 def test_overlaps_at_the_start_are_refused(collision: Path) -> None:
     scene = load(collision).changed({"particles.particles.1.position": ["0.5 mm", 0, 0]})
-    with pytest.raises(ConfigError, match="0 and 1 overlap"):
+    with pytest.raises(ConfigError, match=r"particles\.particles\.1: particle 1 overlaps particle 0 by"):
         Simulation(scene)
 
 

@@ -10,10 +10,8 @@ from typing import Any
 
 import yaml
 
-from clast.errors import ConfigError
+from clast.errors import ConfigError, KeyPath
 from clast.plugins.nearest import suggestion
-
-KeyPath = tuple[str | int, ...]
 
 
 def dotted(path: KeyPath) -> str:

@@ -10,7 +10,8 @@ from typing import Annotated, Any, Union
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
-from clast.config.document import Document, KeyPath, Problem
+from clast.config.document import Document, Problem
+from clast.errors import KeyPath
 from clast.plugins.nearest import nearest_name, suggestion
 
 _KIND = "clast"

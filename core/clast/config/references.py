@@ -9,7 +9,8 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations_with_replacement
 from typing import Any
 
-from clast.config.document import KeyPath, Problem
+from clast.config.document import Problem
+from clast.errors import KeyPath
 from clast.plugins.nearest import suggestion
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from enum import Enum
 from pathlib import Path
 from typing import Annotated, Any
@@ -26,7 +27,7 @@ from clast.config.sections import (
     TimeSettings,
 )
 from clast.config.yaml_loader import read_document
-from clast.errors import ConfigError, PluginError
+from clast.errors import ClastError, ConfigError, KeyPath, PluginError
 from clast.parts.params import Params
 from clast.plugins.discovery import discover, load_file
 from clast.plugins.registry import Registry
@@ -95,7 +96,7 @@ class SceneConfig(Params):
     @property
     def chosen(self) -> tuple[Chosen, ...]:
         """Every part the scene uses, in the order of the sections."""
-        return tuple(_chosen_in(self))
+        return tuple(chosen for _, chosen in _chosen_in(self, ()))
 
     @property
     def document(self) -> Document:
@@ -111,6 +112,40 @@ class SceneConfig(Params):
     def folder(self) -> Path:
         """Folder that relative paths in the scene start from."""
         return self._document.folder
+
+    def path_of(self, part: Chosen) -> KeyPath:
+        """Key path at which a part of this scene was chosen."""
+        return next(path for path, each in _chosen_in(self, ()) if each is part)
+
+    def problem(self, place: KeyPath | str, text: str) -> ConfigError:
+        """Error for the caller to raise, with its place in front.
+
+        Parameters
+        ----------
+        place : key path or str
+            Key path in this scene, told with file and line; or file and line of another file.
+        text : str
+            What is wrong, and what to do.
+        """
+        message = f"{place}: {text}" if isinstance(place, str) else self._document.report([Problem(place, text)])
+        return ConfigError(message, at=None)
+
+    @contextmanager
+    def placing(self, path: KeyPath) -> Iterator[None]:
+        """Put file, line and key in front of the errors that a part raises about its own keys (``ClastError.at``).
+
+        Parameters
+        ----------
+        path : key path
+            Where the part's keys stand in the scene.
+        """
+        try:
+            yield
+        except ClastError as error:
+            if error.at is not None:
+                error.args = (self._document.report([Problem((*path, *error.at), str(error))]),)
+                error.at = None
+            raise
 
     def resolved(self) -> dict[str, Any]:
         """Plain data in SI with every default written out; :func:`from_mapping` gives the same scene again.
@@ -201,20 +236,21 @@ def _plugins(document: Document) -> tuple[Registry, list[Problem]]:
     return registry, problems
 
 
-def _chosen_in(value: Any) -> Iterable[Chosen]:
+def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
+    """Every part below a value, with the key path at which it was chosen."""
     if isinstance(value, Chosen):
-        yield value
+        yield path, value
     elif isinstance(value, WallChoice):
-        yield value.shape
-        if value.motion is not None:
-            yield value.motion
+        yield path, value.shape
+        yield from _chosen_in(value.motion, (*path, "motion"))
     elif isinstance(value, BaseModel):
-        yield from _chosen_in([getattr(value, name) for name in type(value).model_fields])
+        yield from _chosen_in({name: getattr(value, name) for name in type(value).model_fields}, path)
     elif isinstance(value, Mapping):
-        yield from _chosen_in(list(value.values()))
+        for key, inner in value.items():
+            yield from _chosen_in(inner, (*path, key))
     elif isinstance(value, list | tuple):
-        for each in value:
-            yield from _chosen_in(each)
+        for index, inner in enumerate(value):
+            yield from _chosen_in(inner, (*path, index))
 
 
 def _plain(value: Any, folder: Path) -> Any:

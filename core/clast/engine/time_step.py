@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.errors import ConfigError
 from clast.scene.plan import bond_stiffness, material_pairs
 from clast.scene.scene import Scene
 
@@ -115,11 +114,13 @@ def choose_step(scene: Scene, found: Limits) -> float:
     time = scene.config.time
     step = time.step if isinstance(time.step, float) else time.step.factor * found.paper
     if not np.isfinite(step):
-        raise ConfigError("time.step: no limit applies to this scene; give a fixed step, e.g. 'step: 1e-6 s'")
+        text = "no limit applies to this scene, so the rule gives no step; write one, for instance 'step: 1e-6 s'"
+        raise scene.config.problem(("time", "step"), text)
     if step > found.stable and not time.allow_unstable:
-        bonds, contacts = found.network * found.damping, 10.0 * found.contact
-        raise ConfigError(
-            f"time.step: {step:.4g} s is above the stability limit {found.stable:.4g} s (bonds {bonds:.4g} s, contacts "
-            f"{contacts:.4g} s); take a smaller step, raise time.mass_scaling, or set time.allow_unstable"
+        cause = "bonds" if found.network * found.damping == found.stable else "contacts"
+        raise scene.config.problem(
+            ("time", "step"),
+            f"{step:.4g} s is above the stability limit of the {cause}, {found.stable:.4g} s; take a smaller step, "
+            "raise time.mass_scaling, or set time.allow_unstable",
         )
     return float(step)

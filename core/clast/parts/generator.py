@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.errors import KeyPath
 from clast.parts.params import Params
 
 Floats = NDArray[np.float64]
@@ -59,6 +60,8 @@ class Packing:
         Whether overlaps at the start count as undeformed: contacts then push only beyond them.
     report : mapping
         What was reached, for the user: name with unit -> number or text.
+    origin : (k) -> key path or str, optional
+        Where the user wrote particle k, for messages: a key path inside the generator's own keys, or file and line.
     """
 
     position: Floats
@@ -71,6 +74,7 @@ class Packing:
     bonds: BondList | None = None
     relieved: bool = False
     report: Mapping[str, float | int | str] = field(default_factory=dict)
+    origin: Callable[[int], KeyPath | str] = lambda k: ()
 
 
 @dataclass(frozen=True)

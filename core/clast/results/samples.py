@@ -6,9 +6,7 @@ import numpy as np
 
 from clast.engine.kernels.layout import F, M, V, W, X
 from clast.engine.state import Floats
-from clast.errors import ConfigError
 from clast.results.store import Store
-from clast.scene.scene import Scene
 from clast.simulation import Simulation
 
 PARTICLE_TRACK = ("position", "velocity", "spin", "force", "moment")
@@ -35,17 +33,7 @@ class Samples:
         self.mean = output.force == "mean"
         self.particles = np.array(output.tracks.particles, np.int64)
         self.bonds = np.array(output.tracks.bonds, np.int64)
-        self._refuse_unknown(simulation.scene)
         self.previous_step = 0
-
-    def _refuse_unknown(self, scene: Scene) -> None:
-        for key, wanted, count in (
-            ("particles", self.particles, len(scene.radius)),
-            ("bonds", self.bonds, len(scene.ends)),
-        ):
-            wrong = wanted[(wanted < 0) | (wanted >= count)]
-            if len(wrong):
-                raise ConfigError(f"output.tracks.{key}: there is no number {wrong[0]}; the scene has {count} {key}")
 
     def next_step(self, step: int) -> int | None:
         """Return the next multiple of the interval, and at last the end."""

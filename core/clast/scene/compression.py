@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from clast.config.choice import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.state import Walls
-from clast.errors import ConfigError
 
 Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
@@ -40,8 +39,10 @@ class Gauge:
         line = upper - lower
         length = np.linalg.norm(line)
         if length == 0.0:
-            raise ConfigError(
-                "compression: upper and lower wall are in the same place; there is no axis to press along"
+            raise self.config.problem(
+                ("compression",),
+                "the upper and the lower wall are in the same place, so there is no axis to press along; move one of "
+                "them",
             )
         return np.asarray(line / length)
 
@@ -84,9 +85,10 @@ class Gauge:
         walls = list(self.config.walls.values())
         start = self._approach_rate(walls, 0.0)
         if start <= 0.0:
-            raise ConfigError(
-                "time.end.strain: the plates do not approach each other; give walls."
-                f"{self.names[self.upper]}.motion a velocity towards walls.{self.names[self.lower]}"
+            raise self.config.problem(
+                ("time", "end", "strain"),
+                f"the plates do not approach each other; give walls.{self.names[self.upper]}.motion a velocity towards "
+                f"walls.{self.names[self.lower]}",
             )
         return displacement / start
 

@@ -21,7 +21,6 @@ from clast.engine.tables import (
     no_bonds,
     particle_tables,
 )
-from clast.errors import ConfigError
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
 from clast.scene.scene import Scene
@@ -99,9 +98,10 @@ def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
             a, b = config.materials[names[i]], config.materials[names[j]]
             settings = config.contacts.pair(names[i], names[j])
             if settings is None:
-                raise ConfigError(
-                    f"contacts.pairs: {names[i]} and {names[j]} can touch but have no settings; add "
-                    f"'{names[i]}-{names[j]}' or 'default'"
+                raise config.problem(
+                    ("contacts", "pairs"),
+                    f"{names[i]} and {names[j]} can touch but have no settings; add '{names[i]}-{names[j]}' or "
+                    "'default'",
                 )
             pair = MaterialPair(
                 a.young_modulus,

@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
-from clast.errors import ConfigError
+from clast.errors import KeyPath
 from clast.parts.bond_model import BondGeometry
 from clast.parts.generator import BondList, Packing
+from clast.plugins.nearest import suggestion
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+
+class Origin(NamedTuple):
+    """Where particles come from: number of the first, key path of their generator, and ``Packing.origin``."""
+
+    first: int
+    path: KeyPath
+    within: Callable[[int], KeyPath | str]
+
+    def place(self, particle: int) -> KeyPath | str:
+        """Where the user wrote a particle: a key path of the scene, or file and line."""
+        place = self.within(particle - self.first)
+        return place if isinstance(place, str) else (*self.path, *place)
 
 
 @dataclass(frozen=True)
@@ -37,6 +53,8 @@ class Scene:
         Diameter and initial length of each bond in m.
     relieved : (n,) bool
         Particles whose overlaps at the start count as undeformed.
+    origins : tuple of Origin
+        Where the particles of each generator come from, in order.
     report : mapping
         What each generator reached.
     """
@@ -54,6 +72,7 @@ class Scene:
     diameter: Floats
     length: Floats
     relieved: NDArray[np.bool_]
+    origins: tuple[Origin, ...] = ()
     report: Mapping[str, Mapping[str, float | int | str]] = field(default_factory=dict)
 
     @property
@@ -69,6 +88,10 @@ class Scene:
             R = R[0]
         return BondGeometry(self.length, R, np.pi * R**2, 0.25 * np.pi * R**4)
 
+    def origin(self, particle: int) -> KeyPath | str:
+        """Where the user wrote a particle: a key path of the scene, or file and line."""
+        return next(each for each in reversed(self.origins) if each.first <= particle).place(particle)
+
 
 def build_scene(config: SceneConfig) -> Scene:
     """Run the generators of a config and join what they make.
@@ -76,10 +99,29 @@ def build_scene(config: SceneConfig) -> Scene:
     Raises
     ------
     PackingError, ConfigError
-        From the generators, and for bonds without a bond model.
+        From the generators, and from :func:`join`.
     """
-    packings = [chosen.part.generate(chosen.params, config.folder) for chosen in config.generators]
-    material = _materials(config, packings)
+    return join(config, [(chosen, generated(config, chosen)) for chosen in config.generators])
+
+
+def generated(config: SceneConfig, chosen: Chosen) -> Packing:
+    """Run one generator of a config; its errors are told with their place in the scene."""
+    with config.placing(config.path_of(chosen)):
+        packing: Packing = chosen.part.generate(chosen.params, config.folder)
+    return packing
+
+
+def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
+    """Join what generators made into one scene, bonded as the config says.
+
+    Raises
+    ------
+    ConfigError
+        A particle is of a material that the config does not have.
+    """
+    packings = [packing for _, packing in made]
+    origins = _origins(config, made)
+    material = _materials(config, packings, origins)
     radius = np.concatenate([packing.radius for packing in packings])
     density = np.array([each.density for each in config.materials.values()])[material]
     position = np.concatenate([packing.position for packing in packings])
@@ -99,20 +141,27 @@ def build_scene(config: SceneConfig) -> Scene:
         diameter=bonds.diameter,
         length=_lengths(bonds, position),
         relieved=np.concatenate([np.full(len(p.radius), p.relieved) for p in packings]),
-        report={
-            f"{k + 1}. {chosen.name}": p.report
-            for k, (chosen, p) in enumerate(zip(config.generators, packings, strict=True))
-        },
+        origins=origins,
+        report={f"{k + 1}. {chosen.name}": packing.report for k, (chosen, packing) in enumerate(made)},
     )
 
 
-def _materials(config: SceneConfig, packings: list[Packing]) -> Integers:
+def _origins(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> tuple[Origin, ...]:
+    first = np.cumsum([0, *(len(packing.radius) for _, packing in made)])
+    return tuple(
+        Origin(int(k), config.path_of(chosen), packing.origin)
+        for k, (chosen, packing) in zip(first, made, strict=False)
+    )
+
+
+def _materials(config: SceneConfig, packings: list[Packing], origins: tuple[Origin, ...]) -> Integers:
     names = {name: k for k, name in enumerate(config.materials)}
-    wanted = [name for packing in packings for name in packing.material]
-    unknown = sorted(set(wanted) - set(names))
-    if unknown:
-        raise ConfigError(f"particles: material {unknown[0]!r} is not among the scene's materials ({', '.join(names)})")
-    return np.array([names[name] for name in wanted], np.int64)
+    for packing, origin in zip(packings, origins, strict=True):
+        for k, name in enumerate(packing.material):
+            if name not in names:
+                text = f"there is no material {name!r}; {suggestion(name, names)}"
+                raise config.problem(origin.place(origin.first + k), text)
+    return np.array([names[name] for packing in packings for name in packing.material], np.int64)
 
 
 def _joined_grains(packings: list[Packing]) -> Integers:

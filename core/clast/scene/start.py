@@ -4,27 +4,41 @@ from __future__ import annotations
 
 import numpy as np
 
-from clast.errors import ConfigError
 from clast.scene.bonding import close_pairs
 from clast.scene.plan import material_pairs, wall_shapes
 from clast.scene.scene import Scene
 
 
 def check_start(scene: Scene) -> None:
-    """Check materials and overlaps at the start.
+    """Check materials, tracks, and overlaps at the start.
 
     Raises
     ------
     ConfigError
-        If two materials that can touch have no settings, walls have no contact law, or bodies overlap too much.
+        If two materials that can touch have no settings, walls have no contact law, a track names what is not there,
+        or bodies overlap too much.
     """
+    _refuse_missing_tracks(scene)
     if scene.config.contacts is None:
         if scene.config.walls:
-            raise ConfigError("walls: need 'contacts' with a law, or particles fall through them")
+            text = "particles fall through walls without a section 'contacts'; add it with a law, or remove the walls"
+            raise scene.config.problem(("walls",), text)
         return
     material_pairs(scene)
     _refuse_particle_overlaps(scene)
     _refuse_wall_overlaps(scene)
+
+
+def _refuse_missing_tracks(scene: Scene) -> None:
+    tracks = scene.config.output.tracks
+    for key, numbers, count in (
+        ("particles", tracks.particles, len(scene.radius)),
+        ("bonds", tracks.bonds, len(scene.ends)),
+    ):
+        for at, number in enumerate(numbers):
+            if not 0 <= number < count:
+                text = f"there is no number {number}; the number of {key} is {count}, counted from 0"
+                raise scene.config.problem(("output", "tracks", key, at), text)
 
 
 def _refuse_particle_overlaps(scene: Scene) -> None:
@@ -41,11 +55,18 @@ def _refuse_particle_overlaps(scene: Scene) -> None:
         share[np.isin(np.sort(ends, axis=1) @ np.array([n, 1]), bonded)] = 0.0
     if len(share) and share.max() > contacts.start_overlap:
         k = int(np.argmax(share))
-        raise ConfigError(
-            f"particles: {i[k]} and {j[k]} overlap by {-gap[k]:.4g} m at the start, {share[k]:.1%} of the smaller "
-            f"radius; allowed are {contacts.start_overlap:.1%}. Move them apart, or raise contacts.start_overlap if "
-            "they are meant to push each other"
+        first, second = ends[k].tolist()
+        raise scene.config.problem(
+            scene.origin(second),
+            f"particle {second} overlaps {_name(scene, first)} by {-gap[k]:.4g} m at the start, {share[k]:.1%} of "
+            f"the smaller radius; allowed are {contacts.start_overlap:.1%}. Move them apart, or raise "
+            "contacts.start_overlap if they are meant to push each other",
         )
+
+
+def _name(scene: Scene, particle: int) -> str:
+    origin = scene.origin(particle)
+    return f"particle {particle}" + (f" ({origin})" if isinstance(origin, str) else "")
 
 
 def _refuse_wall_overlaps(scene: Scene) -> None:
@@ -57,8 +78,9 @@ def _refuse_wall_overlaps(scene: Scene) -> None:
         share[scene.prescribed] = 0.0
         k = int(np.argmax(share))
         if share[k] > contacts.start_overlap:
-            raise ConfigError(
-                f"walls.{name}: particle {k} reaches {share[k] * scene.radius[k]:.4g} m into it at the start, "
+            raise scene.config.problem(
+                ("walls", name),
+                f"{_name(scene, k)} reaches {share[k] * scene.radius[k]:.4g} m into this wall at the start, "
                 f"{share[k]:.1%} of its radius; allowed are {contacts.start_overlap:.1%}. Move the wall or the "
-                "particles apart"
+                "particle, or raise contacts.start_overlap",
             )

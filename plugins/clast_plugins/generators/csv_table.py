@@ -50,7 +50,7 @@ class Table:
         told = [f"{self.path}:{line}: {sentence}" for line, sentence in sorted(self.problems)[:MOST_TOLD]]
         if len(self.problems) > MOST_TOLD:
             told.append(f"{self.path}: and {len(self.problems) - MOST_TOLD} more problems")
-        raise ConfigError("\n".join(told))
+        raise ConfigError("\n".join(told), at=None)
 
     def number(self, line: int, row: dict[str, str], column: str, above: float = -math.inf) -> float:
         """Return a cell as a finite number above a bound; on a problem note it and return nan."""
@@ -108,7 +108,7 @@ def _lines(path: Path, header: str) -> list[str]:
     except FileNotFoundError:
         beside = [p.name for p in path.parent.glob("*")] if path.parent.is_dir() else []
         hint = f" ({suggestion(path.name, beside)})" if 0 < len(beside) < 50 else ""
-        raise ConfigError(f"{path}: there is no such file{hint}; check the path in the scene") from None
+        raise ConfigError(f"{path}: there is no such file{hint}; check the path") from None
     except UnicodeDecodeError as error:
         raise ConfigError(
             f"{path}: not a text file (byte {error.start} is no UTF-8); a CSV file with the header '{header}' is needed"
@@ -130,7 +130,7 @@ def _split(path: Path, lines: list[str]) -> Table:
         except StopIteration:
             return table
         except csv.Error as error:
-            raise ConfigError(f"{path}:{reader.line_num}: not readable as CSV: {error}") from None
+            raise ConfigError(f"{path}:{reader.line_num}: not readable as CSV: {error}", at=None) from None
         if not any(cells):
             continue
         if not columns:

@@ -106,6 +106,7 @@ def generate(params: Explicit, folder: Path) -> Packing:
         grain=connected_grains(len(particles), bonds.ends),
         bonds=bonds if params.bonds else None,
         report={"particles": len(particles), "bonds_written": len(params.bonds)},
+        origin=lambda k: ("particles", k),
     )
 
 

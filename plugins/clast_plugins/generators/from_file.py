@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from clast import hookimpl
+from clast.errors import about
 from clast.parts.generator import BondList, Generator, Packing, Prediction
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
@@ -36,8 +37,9 @@ class FromFile(Params):
 
 
 class ParticleTable(NamedTuple):
-    """Particles as read: ids, ``(n, 3)`` centres and ``(n,)`` radii in m, materials."""
+    """Particles as read: lines in the file, ids, ``(n, 3)`` centres and ``(n,)`` radii in m, materials."""
 
+    lines: list[int]
     ids: list[int]
     position: NDArray[np.float64]
     radius: NDArray[np.float64]
@@ -70,7 +72,7 @@ def read_particles(path: Path, material: str | None) -> ParticleTable:
         materials.append(name or "")
     table.refuse_problems()
     found = np.array(measures)
-    return ParticleTable(ids, found[:, :3].copy(), found[:, 3].copy(), materials)
+    return ParticleTable([line for line, _ in table.rows], ids, found[:, :3].copy(), found[:, 3].copy(), materials)
 
 
 def read_bonds(path: Path, particles: ParticleTable) -> BondList:
@@ -121,8 +123,12 @@ def read(params: FromFile, folder: Path) -> tuple[ParticleTable, BondList | None
     ConfigError
         Anything wrong with either file.
     """
-    particles = read_particles(folder / params.particles, params.material)
-    return particles, None if params.bonds is None else read_bonds(folder / params.bonds, particles)
+    with about("particles"):
+        particles = read_particles(folder / params.particles, params.material)
+    if params.bonds is None:
+        return particles, None
+    with about("bonds"):
+        return particles, read_bonds(folder / params.bonds, particles)
 
 
 def predict(params: FromFile, folder: Path) -> Prediction:
@@ -140,7 +146,7 @@ def generate(params: FromFile, folder: Path) -> Packing:
         Anything wrong with either file.
     """
     particles, bonds = read(params, folder)
-    count = len(particles.ids)
+    count, lines = len(particles.ids), particles.lines
     return Packing(
         position=particles.position,
         radius=particles.radius,
@@ -156,6 +162,7 @@ def generate(params: FromFile, folder: Path) -> Packing:
             "particles_file": params.particles,
             **({} if params.bonds is None else {"bonds_file": params.bonds}),
         },
+        origin=lambda k: f"{folder / params.particles}:{lines[k]}",
     )
 
 

@@ -95,7 +95,8 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
     allowed = params.max_overlap if params.max_overlap is not None else TOLERANCE * d
     relaxed = relax(count, around(0.5 * body.diameter / d, 0.5 * body.height / d), params.seed, allowed / d)
     if relaxed.overlap > allowed / d and not params.accept_overlap:
-        raise PackingError(_too_dense(params, body, count, relaxed, allowed))
+        at = ("primaries",) if params.porosity is None else ("porosity",)
+        raise PackingError(_too_dense(params, body, count, relaxed, allowed), at)
     position = np.asarray(params.centre) + d * relaxed.position
     radius = np.full(count, 0.5 * d)
     packing = Packing(

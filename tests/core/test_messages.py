@@ -1,0 +1,159 @@
+"""What a user reads when something is wrong: one message with its place, an exit code, no traceback."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from clast.cli import main
+
+PAIR = """\
+materials:
+  glass: {density: 2500 kg/m3, young_modulus: 100 MPa, poisson_ratio: 0.25}
+  steel: {density: 7850 kg/m3, young_modulus: 210 GPa, poisson_ratio: 0.3}
+particles:
+  type: explicit
+  material: glass
+  particles:
+    - {position: [-1.1 mm, 0, 0], radius: 1 mm}
+    - {position: [1.1 mm, 0, 0], radius: 1 mm}
+  bonds:
+    - {between: [0, 1], diameter: 1 mm}
+bonds:
+  model: {type: elastic, young_modulus: 100 MPa, poisson_ratio: 0.2, normal_strength: 1 MPa, shear_strength: 1 MPa}
+contacts:
+  law: hertz_mindlin
+  pairs:
+    default: {restitution: 0.5}
+walls:
+  floor: {type: plane, material: steel, point: [0, 0, -1 mm], normal: [0, 0, 1]}
+time:
+  step: 1e-7 s
+  end: {steps: 10}
+output: {writers: []}
+"""
+FILES = """\
+  type: from_file
+  particles: grain.csv
+  bonds: bonds.csv
+  material: glass
+"""
+EXPLICIT = PAIR[PAIR.index("  type: explicit") : PAIR.index("bonds:\n  model")]
+GRAIN = """\
+  type: spherical_agglomerate
+  material: glass
+  diameter: 0.75 mm
+  primary_diameter: 0.25 mm
+  porosity: 0.3
+"""
+
+
+@pytest.fixture(autouse=True)
+def in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Work in a folder of its own, so that messages name files as the user does."""
+    monkeypatch.chdir(tmp_path)
+
+
+def clast(*arguments: Any) -> Result:
+    return CliRunner().invoke(main, [str(each) for each in arguments])
+
+
+def scene(*replacements: tuple[str, str]) -> str:
+    """Write the scene with some of its text replaced."""
+    text = PAIR
+    for old, new in replacements:
+        assert old in text
+        text = text.replace(old, new)
+    Path("scene.yaml").write_text(text)
+    return "scene.yaml"
+
+
+def table(name: str, text: str) -> None:
+    Path(name).write_text(text)
+
+
+def said(result: Result, exit_code: int = 2) -> str:
+    """Return the one message of a command that failed as it should."""
+    assert isinstance(result.exception, SystemExit), result.exception
+    assert result.exit_code == exit_code
+    assert "Traceback" not in result.output
+    return result.stderr.removesuffix("\n")
+
+
+def test_the_scene_that_all_others_spoil_is_right() -> None:
+    result = clast("check", "--build", scene())
+    assert result.exit_code == 0, result.output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[1.1 mm, 0, 0]", "[0.5 mm, 0, 0]", "scene.yaml:9:7: particles.particles.1: particle 1 overlaps particle 0"),
+        (
+            "[0, 0, -1 mm]",
+            "[0, 0, -0.5 mm]",
+            "scene.yaml:19:3: walls.floor: particle 0 reaches 0.0005 m into this wall",
+        ),
+        (
+            "writers: []",
+            "tracks: {bonds: [0, 1]}",
+            "scene.yaml:23:30: output.tracks.bonds.1: there is no number 1; the number of bonds is 1",
+        ),
+        ("1e-7 s", "1e-3 s", "scene.yaml:21:3: time.step: 0.001 s is above the stability limit of the bonds"),
+        ("pairs:\n    default", "pairs:\n    glass-steel", "scene.yaml:16:3: contacts.pairs: 'glass-glass' is needed"),
+        (
+            "contacts:\n  law: hertz_mindlin\n  pairs:\n    default: {restitution: 0.5}\n",
+            "",
+            "scene.yaml:14:1: walls: particles fall through walls without a section 'contacts'",
+        ),
+    ],
+)
+def test_a_scene_that_cannot_start_is_told_with_file_line_and_key(old: str, new: str, message: str) -> None:
+    for command in (["check", "--build"], ["run"]):
+        told = said(clast(*command, scene((old, new))))
+        assert told.startswith(message)
+        assert len(told.splitlines()) == 1
+    assert not Path("runs/scene").exists()
+
+
+def test_a_value_from_the_command_line_is_told_as_it_was_written() -> None:
+    told = said(clast("run", scene(), "--set", "time.step=1 ms"))
+    assert told.startswith("--set time.step=1 ms: time.step: 0.001 s is above the stability limit")
+
+
+def test_a_packing_that_is_too_dense_names_the_porosity() -> None:
+    told = said(clast("run", scene((EXPLICIT, GRAIN))), exit_code=1)
+    assert told.startswith("scene.yaml:9:3: particles.porosity: too dense for a random packing: 18 primaries")
+    assert "Take a larger 'porosity'" in told
+
+
+@pytest.mark.parametrize(
+    ("particles", "bonds", "message"),
+    [
+        (None, None, "scene.yaml:6:3: particles.particles: grain.csv: there is no such file"),
+        ("id,x,y,z,radius\n", None, "scene.yaml:6:3: particles.particles: grain.csv: holds a header but no rows"),
+        ("id,x,y,z,radius\n4,0,0,0,-1\n", None, "grain.csv:2: radius is -1; it must be above 0"),
+        ("id,x,y,z,radius\n4,0,0,0,1e-3\n", None, "scene.yaml:7:3: particles.bonds: bonds.csv: there is no such file"),
+        ("id,x,y,z,radius\n4,0,0,0,1e-3\n", "i,j,diameter\n4,5,1e-3\n", "bonds.csv:2: j names particle 5"),
+        (
+            "id,x,y,z,radius,material\n4,0,0,0,1e-3,\n7,0.0022,0,0,1e-3,glas\n",
+            "i,j,diameter\n4,7,1e-3\n",
+            "grain.csv:3: there is no material 'glas'; did you mean 'glass'?",
+        ),
+        (
+            "id,x,y,z,radius\n4,0,0,0,1e-3\n\n7,0.001,0,0,1e-3\n",
+            "i,j,diameter\n4,7,1e-3\n",
+            "grain.csv:4: particle 1 overlaps particle 0 (grain.csv:2) by 0.001 m",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_table_is_told_with_its_line(
+    particles: str | None, bonds: str | None, message: str
+) -> None:
+    for name, text in (("grain.csv", particles), ("bonds.csv", bonds)):
+        if text is not None:
+            table(name, text)
+    assert said(clast("run", scene((EXPLICIT, FILES)))).startswith(message)
