@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError, ValidationInfo
-from pydantic_core import CoreSchema, InitErrorDetails, core_schema
+from pydantic_core import CoreSchema, core_schema
 
 from clast.config.problems import explain, missing, problem, refuse
 from clast.errors import PluginError
@@ -42,20 +42,6 @@ class Chosen:
     def plain(self) -> dict[str, Any]:
         """Give ``type`` and parameters as the scene file would have them."""
         return {"type": self.name, **plain_fields(self.params)}
-
-
-@dataclass(frozen=True)
-class WallChoice:
-    """A wall: its shape, what it is made of and how it moves."""
-
-    shape: Chosen
-    material: str
-    motion: Chosen | None
-
-    def plain(self) -> dict[str, Any]:
-        """Give the wall as the scene file would have it."""
-        motion = {"motion": self.motion.plain()} if self.motion is not None else {}
-        return {**self.shape.plain(), "material": self.material, **motion}
 
 
 def plain_fields(model: Params) -> dict[str, Any]:
@@ -137,47 +123,9 @@ def default_part(name: str | None) -> Any:
     return name
 
 
-class WallOf:
-    """Marks a field as a wall: a shape's own keys beside ``material`` and ``motion``."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Validate shape and settings apart, and report the problems of both."""
-        return core_schema.with_info_plain_validator_function(_wall)
-
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Leave a mark that :mod:`clast.config.json_schema` replaces by the registry's walls."""
-        return {KIND_KEY: "wall"}
-
-
 def registry_of(info: ValidationInfo) -> Registry:
     """Registry a validation was given."""
     registry = (info.context or {}).get("registry")
     if not isinstance(registry, Registry):
         raise TypeError("validating a scene needs context={'registry': ...}; use clast.load")
     return registry
-
-
-def _wall(given: Any, info: ValidationInfo) -> WallChoice:
-    from clast.config.sections import WallSettings
-
-    if isinstance(given, WallChoice):
-        return given
-    if not isinstance(given, Mapping):
-        raise refuse([problem((), f"a mapping with 'type' is needed; given {given!r}", given)])
-    own = frozenset(WallSettings.model_fields)
-    problems: list[InitErrorDetails] = []
-    settings = shape = None
-    try:
-        settings = WallSettings.model_validate(
-            {key: value for key, value in given.items() if key in own}, context=info.context
-        )
-    except ValidationError as error:
-        problems += explain(error, WallSettings)
-    try:
-        rest = {key: value for key, value in given.items() if key not in own}
-        shape = choose("wall", rest, registry_of(info), own)
-    except ValidationError as error:
-        problems += explain(error, WallSettings)
-    if settings is None or shape is None:
-        raise refuse(problems)
-    return WallChoice(shape, settings.material, settings.motion)

@@ -7,7 +7,8 @@ from math import inf, isfinite, pi, sqrt
 
 import numpy as np
 
-from clast.config.choice import Chosen, WallChoice
+from clast.config.beside import WallChoice
+from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.config.sections import StepRule
 from clast.parts.bond_model import BondGeometry

@@ -7,10 +7,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from clast.config.beside import BESIDE
 from clast.config.choice import KIND_KEY
 from clast.config.scene import SceneConfig
-from clast.config.sections import WallSettings
-from clast.parts.params import Params
 from clast.plugins.registry import KINDS, Registered, Registry
 
 Schema = dict[str, Any]
@@ -58,7 +57,7 @@ def _choice(registry: Registry, kind: str, definitions: Schema) -> Schema:
         name = f"{kind} {entry.name}"
         definitions[name] = _part(entry, definitions)
         branches.append({"$ref": _reference(name)})
-    bare = [entry.name for entry in entries if kind != "wall" and not _needs_something(entry.part.Params)]
+    bare = [entry.name for entry in entries if not _needs_something(entry)]
     if bare:
         branches.insert(0, {"enum": bare})
     return {"oneOf": branches} if branches else {"not": {}}
@@ -68,10 +67,11 @@ def _part(entry: Registered, definitions: Schema) -> Schema:
     schema = _own_schema(entry, definitions)
     properties = {"type": {"const": entry.name, "description": entry.part.summary}}
     required = ["type"]
-    if entry.kind == "wall":
-        settings = model_schema(WallSettings)
+    beside = BESIDE.get(entry.kind)
+    if beside is not None:
+        settings = model_schema(beside.settings)
         properties |= settings["properties"]
-        required += settings["required"]
+        required = [*([] if entry.name == beside.default else required), *settings.get("required", [])]
     schema["properties"] = properties | schema.get("properties", {})
     schema["required"] = required + schema.get("required", [])
     schema["title"] = entry.name
@@ -95,8 +95,9 @@ def _docstring_start(model: type[BaseModel]) -> str:
     return (model.__doc__ or "").split("\n", 1)[0]
 
 
-def _needs_something(params: type[Params]) -> bool:
-    return any(field.is_required() for field in params.model_fields.values())
+def _needs_something(entry: Registered) -> bool:
+    models = [entry.part.Params, *([BESIDE[entry.kind].settings] if entry.kind in BESIDE else [])]
+    return any(field.is_required() for model in models for field in model.model_fields.values())
 
 
 def _reference(name: str) -> str:

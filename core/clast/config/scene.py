@@ -10,7 +10,8 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, ValidationError
 
-from clast.config.choice import Chosen, PartOf, WallChoice, WallOf, default_part, plain_fields
+from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
+from clast.config.choice import Chosen, PartOf, default_part, plain_fields
 from clast.config.document import Document, Problem
 from clast.config.overrides import apply_overrides
 from clast.config.problems import located
@@ -21,7 +22,6 @@ from clast.config.sections import (
     Compression,
     Contacts,
     Material,
-    Neighbours,
     Output,
     ReferencePoint,
     TimeSettings,
@@ -49,7 +49,7 @@ class SceneConfig(Params):
     """A scene of granules: what they are made of, what is done to them, and what is kept.
 
     Made by :func:`load`, validated and in SI. Every choice of a part is a
-    :class:`clast.config.choice.Chosen`, every wall a :class:`clast.config.choice.WallChoice`. ``particles``
+    :class:`clast.config.choice.Chosen`, every wall a :class:`clast.config.beside.WallChoice`. ``particles``
     is a single :class:`Chosen` or a tuple of them, as written; :attr:`generators` is always a tuple.
     """
 
@@ -63,7 +63,7 @@ class SceneConfig(Params):
     particles: Annotated[Generators, Discriminator(_one_or_list), Field(description="One generator, or a list of them")]
     bonds: Annotated[Bonds | None, Field(description="Solid bridges between particles")] = None
     contacts: Annotated[Contacts | None, Field(description="Contact of particles and walls")] = None
-    walls: Annotated[dict[str, Annotated[WallChoice, WallOf()]], Field(description="Walls by name")] = Field(
+    walls: Annotated[dict[str, Annotated[WallChoice, WALL]], Field(description="Walls by name")] = Field(
         default_factory=dict
     )
     body_forces: Annotated[
@@ -74,7 +74,7 @@ class SceneConfig(Params):
         None
     )
     integrator: Annotated[Chosen, PartOf("integrator"), Field(description="Time integrator")] = default_part("midstep")
-    neighbours: Annotated[Neighbours, Field(description="How neighbours are found")] = Field(
+    neighbours: Annotated[NeighbourChoice, NEIGHBOURS, Field(description="How neighbours are found")] = Field(
         default_factory=dict, validate_default=True
     )
     time: Annotated[TimeSettings, Field(description="Time step and end of the run")]
@@ -243,6 +243,8 @@ def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
     elif isinstance(value, WallChoice):
         yield path, value.shape
         yield from _chosen_in(value.motion, (*path, "motion"))
+    elif isinstance(value, NeighbourChoice):
+        yield path, value.search
     elif isinstance(value, BaseModel):
         yield from _chosen_in({name: getattr(value, name) for name in type(value).model_fields}, path)
     elif isinstance(value, Mapping):
@@ -254,7 +256,7 @@ def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
 
 
 def _plain(value: Any, folder: Path) -> Any:
-    if isinstance(value, Chosen | WallChoice):
+    if isinstance(value, Chosen | WallChoice | NeighbourChoice):
         return _plain(value.plain(), folder)
     if isinstance(value, Params):
         return _plain({key: inner for key, inner in plain_fields(value).items() if inner is not None}, folder)

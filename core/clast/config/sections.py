@@ -131,12 +131,9 @@ class Compression(Params):
     diameter: Annotated[Length, Field(gt=0, description="Diameter of the section that stress refers to")]
 
 
-class Neighbours(Params):
-    """How particles that may touch are found."""
+class NeighbourSettings(Params):
+    """What every neighbour search has beside its own parameters."""
 
-    search: Annotated[Chosen, PartOf("neighbour_search"), Field(description="Neighbour search")] = default_part(
-        "linked_cells"
-    )
     skin: Annotated[
         Annotated[Literal["auto"], Tag("<auto>")] | Annotated[Length, Field(gt=0), Tag("<length>")],
         Discriminator(lambda given: "<auto>" if given == "auto" else "<length>"),

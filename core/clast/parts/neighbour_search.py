@@ -20,7 +20,7 @@ class NeighbourSearch:
     summary : str
         One line for ``clast plugins``.
     Params : type
-        What the user writes under ``neighbours.search``.
+        What the user writes under ``neighbours``, beside ``skin``.
     find_pairs : (position, reach) -> pairs
         All pairs with |x_i − x_j| < reach_i + reach_j, from (n, 3) and (n,) float64 to (p, 2) uint32 with i < j in
         rising order. Must not depend on anything else.

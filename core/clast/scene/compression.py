@@ -7,7 +7,7 @@ from math import ceil, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.config.choice import WallChoice
+from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.state import Walls
 

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.config.choice import Chosen, WallChoice
+from clast.config.beside import WallChoice
+from clast.config.choice import Chosen
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
 from clast.engine.kernels.layout import CONTACT_FREE, LANES
 from clast.engine.records import fields, numbers, width

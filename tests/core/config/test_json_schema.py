@@ -41,6 +41,14 @@ def test_walls_take_material_and_motion_beside_their_shape(registry):
     assert plane["required"] == ["type", "material", "point"]
 
 
+def test_the_neighbour_search_that_is_meant_by_default_needs_no_type(registry):
+    definitions = scene_schema(registry)["$defs"]
+    assert definitions["any neighbour_search"]["oneOf"][0] == {"enum": ["linked_cells"]}
+    cells = definitions["neighbour_search linked_cells"]
+    assert set(cells["properties"]) == {"type", "skin"}
+    assert cells["required"] == []
+
+
 def test_quantities_have_units_and_standard_bounds(registry):
     density = scene_schema(registry)["$defs"]["Material"]["properties"]["density"]
     assert density["x-unit"] == "kg/m3"

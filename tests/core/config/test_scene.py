@@ -57,6 +57,18 @@ def test_a_bare_name_stands_for_a_part_without_parameters(load):
     )
 
 
+def test_the_neighbour_search_is_chosen_by_type_with_the_skin_beside_it(load):
+    for written in ("linked_cells", "{type: linked_cells}", "{skin: auto}"):
+        assert load(overrides=[f"neighbours={written}"]).neighbours == load().neighbours
+    assert load(overrides=["neighbours.skin=1 um"]).neighbours.skin == 1e-6
+    assert load(overrides=["neighbours.skin=1 um"]).resolved()["neighbours"] == {"type": "linked_cells", "skin": 1e-6}
+    said = _said(load, overrides=["neighbours={search: linked_cells}"])
+    assert "neighbours.search: not a known key; known are skin, type" in said
+    said = _said(load, overrides=["neighbours={type: cells, skin: 0}"])
+    assert "neighbours.type: no neighbour search is named 'cells'; known are linked_cells" in said
+    assert "neighbours.skin: must be greater than 0" in said
+
+
 def test_the_checkpoint_interval_may_be_minutes_or_hours(load):
     assert load(overrides=["output.checkpoint=10 min"]).output.checkpoint == 600.0
     assert load(overrides=["output.checkpoint=1 h"]).output.checkpoint == 3600.0
