@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -95,35 +95,37 @@ class Document:
             lines.append(f"{self.where(problem.path)}: {key}{problem.message}")
         return "\n".join(lines)
 
-    def changed(self, path: KeyPath, value: Any, written: str, creatable: Sequence[str] = ()) -> Document:
-        """Copy with one value replaced or added.
+    def changed(self, path: KeyPath, value: Any, written: str, closed: Collection[KeyPath] = ()) -> Document:
+        """Copy with one value replaced or added; mappings above it are added where they are missing.
 
         Parameters
         ----------
         path : key path
-            Its parent must exist.
         value : anything
         written : str
             How messages name this change.
-        creatable : sequence of str
-            Sections of the top level that are added when missing.
+        closed : collection of key paths
+            Mappings below which nothing is added: their keys are names that the user chose.
 
         Raises
         ------
         ConfigError
-            The parent does not exist, is no mapping or list, or is a list with fewer entries.
+            What stands above the value is no mapping or list, is a list with fewer entries, or a closed mapping
+            without this key.
         """
+        added: list[KeyPath] = []
         data = copy.deepcopy(self.data)
         parent: Any = data
         for depth, step in enumerate(path[:-1]):
-            if depth == 0 and step in creatable:
-                parent.setdefault(step, {})
+            if isinstance(parent, dict) and step not in parent and path[:depth] not in closed:
+                parent[str(step)] = {}
+                added.append(path[: depth + 1])
             path = _numbered(path, depth, parent)
             parent = _parent(parent, step, path[:depth], written)
         path = _numbered(path, len(path) - 1, parent)
         _put(parent, path, value, written)
         kept = {each: text for each, text in self.overridden.items() if each[: len(path)] != path}
-        return replace(self, data=data, overridden={**kept, path: written})
+        return replace(self, data=data, overridden=kept | dict.fromkeys([*added, path], written))
 
 
 def _descend(value: Any, step: str | int) -> Any:
@@ -179,7 +181,7 @@ def _parent(value: Any, step: str | int, above: KeyPath, written: str) -> Any:
     except KeyError:
         raise ConfigError(f"{written}: {_absent(value, step, above)}") from None
     if not isinstance(found, dict | list):
-        raise ConfigError(f"{written}: {dotted((*above, step))} is {found!r}, which has no keys to set")
+        raise ConfigError(f"{written}: {dotted((*above, step))} is {found!r}, which has no keys to set; give it whole")
     return found
 
 

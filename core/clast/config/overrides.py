@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable
 
 import yaml
 
 from clast.config.document import Document
 from clast.config.yaml_loader import parse_value
-from clast.errors import ConfigError
+from clast.errors import ConfigError, KeyPath
 
 
-def apply_overrides(document: Document, overrides: Iterable[str], creatable: Sequence[str] = ()) -> Document:
+def apply_overrides(document: Document, overrides: Iterable[str], closed: Collection[KeyPath] = ()) -> Document:
     """Lay overrides over a document, in the order given.
 
     Parameters
@@ -19,13 +19,13 @@ def apply_overrides(document: Document, overrides: Iterable[str], creatable: Seq
     document : Document
     overrides : iterable of str
         Each ``key.path=value``; the value is YAML, entries of lists are numbered from 0.
-    creatable : sequence of str
-        Sections that may be added when the file does not have them.
+    closed : collection of key paths
+        Mappings whose keys are names that the user chose; see :meth:`Document.changed`.
 
     Raises
     ------
     ConfigError
-        An override without ``=`` or key, a value that is not YAML, or a path whose parent does not exist.
+        An override without ``=`` or key, a value that is not YAML, or a path that leads nowhere.
 
     Examples
     --------
@@ -45,5 +45,5 @@ def apply_overrides(document: Document, overrides: Iterable[str], creatable: Seq
         except yaml.YAMLError as error:
             problem = getattr(error, "problem", None) or error
             raise ConfigError(f"{written}: the value is not valid YAML: {problem}") from None
-        document = document.changed(path, value, written, creatable)
+        document = document.changed(path, value, written, closed)
     return document

@@ -32,8 +32,8 @@ from clast.parts.params import Params
 from clast.plugins.discovery import discover, load_file
 from clast.plugins.registry import Registry
 
-ADDED_WHEN_MISSING = ("output", "neighbours", "boundaries", "walls")
-"""Sections that ``--set`` and ``changed`` may add to a scene that does not have them."""
+NAMED_BY_THE_USER: tuple[KeyPath, ...] = (("materials",), ("walls",), ("contacts", "pairs"))
+"""Mappings to which ``--set`` and ``changed`` add nothing but whole entries."""
 
 Generators = (
     Annotated[tuple[Annotated[Chosen, PartOf("generator")], ...], Field(min_length=1), Tag("<list>")]
@@ -173,7 +173,7 @@ class SceneConfig(Params):
         document = self._document
         for key, value in changes.items():
             written = f"change of {key!r}"
-            document = document.changed(tuple(key.split(".")), value, written, ADDED_WHEN_MISSING)
+            document = document.changed(tuple(key.split(".")), value, written, NAMED_BY_THE_USER)
         return build(document)
 
 
@@ -192,7 +192,7 @@ def load(path: str | Path, overrides: Iterable[str] = ()) -> SceneConfig:
     ConfigError
         All problems at once, each with file, line, column and key path.
     """
-    return build(apply_overrides(read_document(path), overrides, ADDED_WHEN_MISSING))
+    return build(apply_overrides(read_document(path), overrides, NAMED_BY_THE_USER))
 
 
 def from_mapping(data: Mapping[str, Any], folder: str | Path = ".", name: str = "scene") -> SceneConfig:
