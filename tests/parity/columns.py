@@ -12,6 +12,7 @@ from typing import NamedTuple
 import h5py
 import numpy as np
 
+import clast
 from tests.parity import scenes
 from tests.parity.musen import CASES, Table, table
 
@@ -33,7 +34,7 @@ class Tracks(NamedTuple):
 def run(name: str, folder: Path) -> Tracks:
     """Run a case; the head-on and the oblique impacts are one scene."""
     scene = scenes.bond(name) if name in BONDS else scenes.drop() if name == "drop_gravity" else scenes.impacts()
-    scenes.run(scene, folder)
+    clast.run_scene(scene, folder)
     return read(folder)
 
 

@@ -6,13 +6,11 @@ sphere runs in that of the impacts.
 
 from __future__ import annotations
 
-import fcntl
 from pathlib import Path
 from typing import Any
 
 import clast
 from clast.config.scene import SceneConfig
-from clast.engine.assemble import cache_folder
 from tests.parity.musen import CASES, table
 
 CONFIGS = Path(__file__).parents[2] / "configs" / "parity"
@@ -79,14 +77,6 @@ def drop() -> SceneConfig:
         "output.tracks": {"particles": [0]},
     }
     return impacts().changed(changes | timing("drop_gravity", case["step_s"]))
-
-
-def run(scene: SceneConfig, folder: Path) -> None:
-    """Run a scene; a second process that needs the same compiled loop waits instead of compiling it too."""
-    loop = "impacts" if scene.bonds is None else scene.bonds.model.name
-    with (cache_folder() / f"parity-{loop}.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        clast.run_scene(scene, folder)
 
 
 def timing(name: str, step: float) -> dict[str, Any]:

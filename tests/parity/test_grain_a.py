@@ -10,7 +10,7 @@ import pytest
 import clast
 from clast.results.run import Run
 from tests.parity.musen import table
-from tests.parity.scenes import GRAIN, MODEL_1, MODEL_2, run
+from tests.parity.scenes import GRAIN, MODEL_1, MODEL_2
 
 SAMPLE = 0.2e-3
 """Time between MUSEN's samples in s."""
@@ -24,7 +24,7 @@ def crush(folder: Path, model: dict, milliseconds: int) -> Run:
         "output.samples": round(1e-3 * milliseconds / SAMPLE),
         "output.frames": 2,
     }
-    run(clast.load(GRAIN).changed(changes), folder)
+    clast.run_scene(clast.load(GRAIN).changed(changes), folder)
     return clast.open_run(folder)
 
 

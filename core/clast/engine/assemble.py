@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import shutil
+import stat
 import sys
 import tempfile
 from collections.abc import Callable
@@ -15,6 +16,7 @@ from typing import Any
 
 from clast.engine import compiler, state
 from clast.engine.blueprint import Blueprint
+from clast.engine.entry import Entry
 from clast.engine.slots_text import slots_text
 from clast.engine.sources import digest, reachable
 
@@ -55,7 +57,16 @@ def cache_folder() -> Path:
         with tempfile.TemporaryFile(dir=base):
             return base
     except OSError:
-        return Path(tempfile.gettempdir()) / f"clast-{os.getuid()}"
+        return _temporary_folder()
+
+
+def _temporary_folder() -> Path:
+    """Return this user's folder among the temporary files; code of others must never be loaded from there."""
+    folder = Path(tempfile.gettempdir()) / f"clast-{os.getuid()}"
+    folder.mkdir(mode=0o700, exist_ok=True)
+    found = folder.lstat()
+    own = stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
+    return folder if own else Path(tempfile.mkdtemp(prefix="clast-"))
 
 
 def assemble(plan: Blueprint) -> Kernel:
@@ -73,9 +84,11 @@ def assemble(plan: Blueprint) -> Kernel:
     _write_package(folder, text)
     _register([*plan.functions(), *helpers])
     package = _import_package(name, folder)
-    loop, view, near = (_submodule(package, part) for part in ("step_loop", "observe", "near_walls"))
-    fresh = not any((folder / "__pycache__").glob("step_loop.advance*.nbi"))
-    return Kernel(loop.advance, view.observe, near.near_walls, name.removeprefix("clast_kernel_"), fresh)
+    advance, observe, near_walls = (
+        Entry(getattr(_submodule(package, file), function), folder / "lock")
+        for file, function in (("step_loop", "advance"), ("observe", "observe"), ("near_walls", "near_walls"))
+    )
+    return Kernel(advance, observe, near_walls, name.removeprefix("clast_kernel_"), fresh=not advance.on_disk)
 
 
 def _template_helpers() -> list[Callable[..., Any]]:
@@ -115,7 +128,7 @@ def _register(functions: list[Callable[..., Any]]) -> None:
 
     for function in reachable(functions):
         if function not in _registered:
-            register_jitable(forceinline=True, error_model="numpy")(function)
+            register_jitable(forceinline=True, **compiler.STRICT)(function)
             _registered.add(function)
 
 

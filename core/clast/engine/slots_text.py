@@ -93,8 +93,10 @@ def _integrator(plan: Blueprint) -> str:
 def _bind(name: str, item: Callable[..., Any] | type | None) -> str:
     if item is None:
         return f"{name} = nothing"
-    module, qualified = (item.__module__, item.__qualname__) if isinstance(item, type) else address(item)
-    return f"{name} = import_module({module!r}).{qualified}"
+    if isinstance(item, type):
+        return f"{name} = import_module({item.__module__!r}).{item.__qualname__}"
+    module, qualified = address(item)
+    return f"{name} = inlined(import_module({module!r}).{qualified})"
 
 
 def _function(name: str, arguments: str, body: str | Sequence[str]) -> str:

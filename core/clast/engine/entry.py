@@ -1,0 +1,50 @@
+"""Entry points: each is compiled by one process at a time, and loaded from disk by all that wait."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+
+class Entry:
+    """A compiled function as Python calls it; its first call compiles it, or waits for a process that does.
+
+    Parameters
+    ----------
+    function : numba dispatcher
+        Made by :func:`clast.engine.compiler.compiled`.
+    lock : Path
+        File that processes lock while they compile.
+    """
+
+    def __init__(self, function: Any, lock: Path) -> None:
+        self.function, self.lock = function, lock
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call it."""
+        if not self.function.signatures:
+            with alone(self.lock):
+                self.function.compile(tuple(self.function.typeof_pyval(each) for each in arguments))
+        return self.function(*arguments)
+
+    @property
+    def on_disk(self) -> bool:
+        """Whether machine code of this function was kept by an earlier run."""
+        name = f"{Path(self.function.py_func.__code__.co_filename).stem}.{self.function.__name__}-*.nbi"
+        return any(Path(self.function.stats.cache_path).glob(name))
+
+
+@contextmanager
+def alone(lock: Path) -> Iterator[None]:
+    """Wait until no other process is inside with the same lock file; do not wait where no file can be locked.
+
+    The system frees the lock of a process that ends, however it ends.
+    """
+    with ExitStack() as stack:
+        with suppress(ImportError, OSError):
+            import fcntl
+
+            fcntl.flock(stack.enter_context(lock.open("w")), fcntl.LOCK_EX)
+        yield
