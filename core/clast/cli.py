@@ -5,6 +5,7 @@ Everything heavy is imported inside the command that needs it, so that ``clast -
 
 from __future__ import annotations
 
+import errno
 import json
 from pathlib import Path
 from typing import Any
@@ -15,18 +16,40 @@ from clast.errors import ClastError
 
 
 class _Commands(click.Group):
-    """Commands whose Clast errors become one message and an exit code."""
+    """Commands whose errors become one message and an exit code, unless they are mistakes of Clast's own."""
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; print a ClastError without a traceback."""
+        """Run the command; print what the user can help without a traceback."""
         try:
             return super().invoke(ctx)
-        except ClastError as error:
-            click.echo(str(error), err=True)
-            ctx.exit(error.exit_code)
         except KeyboardInterrupt:
             click.echo("stopped by SIGINT", err=True)
             ctx.exit(130)
+        except Exception as error:
+            told = _told(error)
+            if told is None:
+                raise
+            message, exit_code = told
+            click.echo(message, err=True)
+            ctx.exit(exit_code)
+
+
+def _told(error: Exception) -> tuple[str, int] | None:
+    """Message and exit code of an error that the user can help; None for a mistake of Clast's own."""
+    if isinstance(error, ClastError):
+        return str(error), error.exit_code
+    if isinstance(error, click.ClickException | click.exceptions.Exit | click.Abort):
+        return None  # click tells these itself
+    from clast.plugins.blame import plugin_line
+
+    place = plugin_line(error)
+    if place is not None:
+        return f"{place}: raised {type(error).__name__}: {error}", 2
+    if isinstance(error, MemoryError):
+        return "out of memory; 'clast check' tells how much a scene needs", 1
+    if isinstance(error, OSError) and error.errno != errno.EPIPE:
+        return f"{error.filename or 'reading or writing failed'}: {error.strerror or error}", 1
+    return None
 
 
 _file = click.argument("file", type=click.Path(path_type=Path))
@@ -107,6 +130,16 @@ def schema(files: tuple[Path, ...]) -> None:
     from clast.plugins.discovery import discover
 
     click.echo(json.dumps(scene_schema(discover(files)), indent=2, ensure_ascii=False))
+
+
+@main.command()
+@click.argument("folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.argument("names", metavar="[WRITER]...", nargs=-1)
+def write(folder: Path, names: tuple[str, ...]) -> None:
+    """Make the files of RUN, the folder of a run, anew; those of all its writers, or of the ones named."""
+    from clast import write_command
+
+    write_command.write(folder, names)
 
 
 @main.command()

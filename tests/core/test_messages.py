@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 
 from clast.cli import main
 
+EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 PAIR = """\
 materials:
   glass: {density: 2500 kg/m3, young_modulus: 100 MPa, poisson_ratio: 0.25}
@@ -128,6 +129,23 @@ def test_a_packing_that_is_too_dense_names_the_porosity() -> None:
     told = said(clast("run", scene((EXPLICIT, GRAIN))), exit_code=1)
     assert told.startswith("scene.yaml:9:3: particles.porosity: too dense for a random packing: 18 primaries")
     assert "Take a larger 'porosity'" in told
+
+
+def test_a_function_of_a_plugin_that_raises_is_told_with_its_line() -> None:
+    law = (EXAMPLES / "my_law.py").read_text()
+    table("my_law.py", law.replace("    return BondConstants(1", "    oops()\n    return BondConstants(1"))
+    table("scene.yaml", (EXAMPLES / "my_law.yaml").read_text())
+    line = law[: law.index("    return BondConstants(1")].count("\n") + 1
+    told = said(clast("run", "scene.yaml"))
+    assert told == f"{Path('my_law.py').resolve()}:{line}: raised NameError: name 'oops' is not defined"
+
+
+def test_a_plugin_that_cannot_be_loaded_is_one_message_with_file_and_line() -> None:
+    table("my_law.py", "import clast\n\nnonsense(\n")
+    table("scene.yaml", (EXAMPLES / "my_law.yaml").read_text())
+    told = said(clast("check", "scene.yaml"))
+    assert told.startswith(f"scene.yaml:2:11: plugins.0: {Path('my_law.py').resolve()}:3: SyntaxError")
+    assert len(told.splitlines()) == 1
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from clast.config.problems import explain, missing, problem, refuse
+from clast.config.problems import MISSING, UNKNOWN_PART, explain, problem, refuse
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.registry import Registry, Source
@@ -73,7 +73,7 @@ def choose(kind: str, given: Any, registry: Registry, also: frozenset[str] = fro
     try:
         entry = registry.get(kind, name)
     except PluginError as error:
-        raise refuse([problem(("type",), str(error), name)]) from None
+        raise refuse([problem(("type",), str(error), name, UNKNOWN_PART)]) from None
     try:
         params = entry.part.Params.model_validate(rest, context={"registry": registry})
     except ValidationError as error:
@@ -89,7 +89,8 @@ def _name_and_rest(kind: str, given: Any, registry: Registry) -> tuple[str, dict
         needed = f"the name of a {kind.replace('_', ' ')} is needed, or a mapping with 'type'; {known}"
         raise refuse([problem((), f"{needed}; given {given!r}", given)])
     if "type" not in given:
-        raise refuse([missing(("type",), f"this key is missing: which {kind.replace('_', ' ')}; {known}")])
+        text = f"this key is missing: which {kind.replace('_', ' ')}; {known}"
+        raise refuse([problem(("type",), text, kind=MISSING)])
     name = given["type"]
     if not isinstance(name, str):
         raise refuse([problem(("type",), f"{name!r} is not a name; {known}", name)])

@@ -11,7 +11,7 @@ from clast.config.json_schema import model_schema
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
-from clast.plugins.registry import Registered, Registry, one_line
+from clast.plugins.registry import Registered, Registry
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,7 @@ def plugins_text(registry: Registry) -> str:
         lines += ["", f"{kind.replace('_', ' ')}:"]
         lines += [f"  {each.name:{width}}  {each.part.summary}  [{each.source}]" for each in entries]
     for failure in registry.failures:
-        text = one_line(failure.error)
-        lines += ["", f"not loaded: plugin {failure.source.plugin!r} ({failure.source}): {text}"]
+        lines += ["", str(failure)]
     return "\n".join(lines[1:]) if lines else "no plugin is installed; install Clast with 'pip install -e .'"
 
 

@@ -21,10 +21,11 @@ def dotted(path: KeyPath) -> str:
 
 @dataclass(frozen=True)
 class Problem:
-    """Something wrong at a key path."""
+    """Something wrong at a key path; ``kind`` is empty, or one of those in :mod:`clast.config.problems`."""
 
     path: KeyPath
     message: str
+    kind: str = ""
 
 
 @dataclass(frozen=True)

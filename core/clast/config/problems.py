@@ -14,18 +14,17 @@ from clast.config.document import Document, Problem
 from clast.errors import KeyPath
 from clast.plugins.nearest import nearest_name, suggestion
 
-_KIND = "clast"
-_MISSING = "clast_missing"
+WRONG = "clast_wrong"
+MISSING = "clast_missing"
+"""The key is not there."""
+UNKNOWN_PART = "clast_unknown_part"
+"""No part has this name: what a plugin that could not be loaded may have brought."""
+_KINDS = (WRONG, MISSING, UNKNOWN_PART)
 
 
-def problem(loc: KeyPath, text: str, given: Any = None) -> InitErrorDetails:
+def problem(loc: KeyPath, text: str, given: Any = None, kind: str = WRONG) -> InitErrorDetails:
     """One finished message, for raising out of a validator with :func:`refuse`."""
-    return {"type": PydanticCustomError(_KIND, "{text}", {"text": text}), "loc": loc, "input": given}
-
-
-def missing(loc: KeyPath, text: str) -> InitErrorDetails:
-    """Like :func:`problem`, for a key that is not there."""
-    return {"type": PydanticCustomError(_MISSING, "{text}", {"text": text}), "loc": loc, "input": None}
+    return {"type": PydanticCustomError(kind, "{text}", {"text": text}), "loc": loc, "input": given}
 
 
 def refuse(problems: Sequence[InitErrorDetails]) -> ValidationError:
@@ -48,8 +47,8 @@ def explain(error: ValidationError, model: type[BaseModel], also: Collection[str
     for found in error.errors(include_url=False):
         loc = tuple(step for step in found["loc"] if not _is_tag(step))
         text = _text(found, loc, model, also)
-        make = missing if found["type"] in ("missing", _MISSING) else problem
-        details.append(make(loc, text))
+        kind = found["type"] if found["type"] in _KINDS else MISSING if found["type"] == "missing" else WRONG
+        details.append(problem(loc, text, kind=kind))
     return details
 
 
@@ -60,11 +59,11 @@ def located(error: ValidationError, model: type[BaseModel], document: Document) 
         kind = details["type"]
         assert isinstance(kind, PydanticCustomError)
         path = details.get("loc", ())
-        last = path[-1:] if kind.type == _MISSING else ()
+        last = path[-1:] if kind.type == MISSING else ()
         path = path[: len(path) - len(last)]
         while path and not document.has(path):
             path = path[:-1]
-        problems.append(Problem((*path, *last), str(kind)))
+        problems.append(Problem((*path, *last), str(kind), kind.type))
     return problems
 
 
@@ -87,8 +86,8 @@ def _text(found: ErrorDetails, loc: KeyPath, model: type[BaseModel], also: Colle
             return _choice_text(found["input"], str(context["expected"]))
         case "model_type" | "dict_type" | "model_attributes_type":
             return f"a mapping 'key: value' is needed; given {_short(found['input'])}"
-        case "clast" | "clast_missing":
-            return found["msg"]
+    if found["type"] in _KINDS:
+        return found["msg"]
     text = re.sub(r"^\w+ should ", "must ", found["msg"])
     return f"{text}; given {_short(found['input'])}"
 

@@ -14,7 +14,7 @@ from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
 from clast.config.choice import Chosen, PartOf, default_part, plain_fields
 from clast.config.document import Document, Problem
 from clast.config.overrides import apply_overrides
-from clast.config.problems import located
+from clast.config.problems import UNKNOWN_PART, located
 from clast.config.references import check_references
 from clast.config.sections import (
     Bonds,
@@ -208,15 +208,17 @@ def build(document: Document) -> SceneConfig:
     ConfigError
         All problems at once.
     """
-    registry, problems = _plugins(document)
-    problems += check_references(document.data)
+    registry, not_loaded = _plugins(document)
+    problems = [*not_loaded, *check_references(document.data)]
     data = dict(document.data)
     data.setdefault("name", Path(document.name).stem)
     scene = None
     try:
         scene = SceneConfig.model_validate(data, context={"registry": registry})
     except ValidationError as error:
-        problems += located(error, SceneConfig, document)
+        found = located(error, SceneConfig, document)
+        # what a file that was not loaded would have brought cannot be missed
+        problems += [each for each in found if not (not_loaded and each.kind == UNKNOWN_PART)]
     if problems or scene is None:
         raise ConfigError(document.report(problems))
     scene._document, scene._registry = document, registry

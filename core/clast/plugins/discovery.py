@@ -22,12 +22,11 @@ import pluggy
 
 from clast.errors import PluginError
 from clast.plugins import hookspec
+from clast.plugins.blame import FILE_MODULE, GROUP, OWN_DISTRIBUTION, line_in
 from clast.plugins.nearest import suggestion
 from clast.plugins.registry import Failure, NameTakenError, Registry, Source, one_line
 
-GROUP = "clast"
 CHOICE = "CLAST_PLUGINS"
-OWN_DISTRIBUTION = "clast"
 
 
 def discover(files: Sequence[str | Path] = (), folder: Path | None = None) -> Registry:
@@ -98,25 +97,21 @@ def register(plugin: Any, source: Source, registry: Registry) -> None:
     PluginError
         It states no ``CLAST_API`` or another one, or has no ``clast_register`` marked with ``hookimpl``.
     """
-    _check_api(plugin, source)
+    _check_api(plugin)
     manager = pluggy.PluginManager(hookspec.PROJECT)
     manager.add_hookspecs(hookspec)
     manager.register(plugin, name=source.plugin)
     try:
         manager.check_pending()
     except pluggy.PluginValidationError as error:
-        raise PluginError(f"plugin {source.plugin!r} ({source}): {error}; the only hook is 'clast_register'") from None
+        raise PluginError(f"{error}; the only hook is 'clast_register'") from None
     if not manager.hook.clast_register.get_hookimpls():
         raise PluginError(
-            f"plugin {source.plugin!r} ({source}) registers nothing: it needs a function "
-            "'clast_register(registry)' marked with '@hookimpl' (from clast import hookimpl)"
+            "registers nothing: a plugin needs a function 'clast_register(registry)' marked with '@hookimpl' (from "
+            "clast import hookimpl)"
         )
     with registry.registering(source):
-        try:
-            manager.hook.clast_register(registry=registry)
-        except Exception as error:
-            error.add_note(f"raised by clast_register of plugin {source.plugin!r} ({source})")
-            raise
+        manager.hook.clast_register(registry=registry)
 
 
 def load_file(path: Path, registry: Registry) -> None:
@@ -133,15 +128,15 @@ def load_file(path: Path, registry: Registry) -> None:
         path = path.resolve(strict=True)
         digest = hashlib.sha256(f"{path}\0".encode() + path.read_bytes()).hexdigest()[:12]
     except OSError as error:
-        raise PluginError(f"plugin file {path}: {error.strerror or error}") from None
+        raise PluginError(f"{path}: {error.strerror or error}") from None
     source = Source(plugin=path.name, origin=str(path))
     try:
-        module = _execute(path, f"clast_plugin_file_{path.stem}_{digest}")
+        module = _execute(path, f"{FILE_MODULE}{path.stem}_{digest}")
         register(module, source, registry)
-    except PluginError:
+    except NameTakenError:
         raise
-    except Exception as error:
-        raise PluginError(f"plugin file {path}{_line_in(path, error)}: {one_line(error)}") from error
+    except (Exception, SystemExit) as error:
+        raise PluginError(f"{path}{line_in(path, error)}: {one_line(error)}") from error
 
 
 def _execute(path: Path, name: str) -> ModuleType:
@@ -150,7 +145,7 @@ def _execute(path: Path, name: str) -> ModuleType:
     loader = SourceFileLoader(name, str(path))
     spec = spec_from_loader(name, loader)
     if spec is None:
-        raise PluginError(f"plugin file {path}: Python cannot load it")
+        raise PluginError("Python cannot load it")
     module = module_from_spec(spec)
     sys.modules[name] = module
     try:
@@ -162,25 +157,14 @@ def _execute(path: Path, name: str) -> ModuleType:
     return module
 
 
-def _line_in(path: Path, error: BaseException) -> str:
-    line = error.lineno if isinstance(error, SyntaxError) else None
-    step = error.__traceback__
-    while step is not None:
-        if step.tb_frame.f_code.co_filename == str(path):
-            line = step.tb_lineno
-        step = step.tb_next
-    return f":{line}" if line else ""
-
-
-def _check_api(plugin: Any, source: Source) -> None:
+def _check_api(plugin: Any) -> None:
     stated = getattr(plugin, "CLAST_API", None)
     if stated == hookspec.API_VERSION:
         return
-    who = f"plugin {source.plugin!r} ({source})"
     if stated is None:
-        raise PluginError(f"{who} does not state its API; add 'CLAST_API = {hookspec.API_VERSION}' to it")
+        raise PluginError(f"does not state its API; add 'CLAST_API = {hookspec.API_VERSION}' to the plugin")
     raise PluginError(
-        f"{who} is written for CLAST_API {stated}, this Clast speaks {hookspec.API_VERSION}; update the plugin or Clast"
+        f"written for CLAST_API {stated}, this Clast speaks {hookspec.API_VERSION}; update the plugin or Clast"
     )
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from clast.errors import PluginError
 from clast.parts.params import Params
+from clast.plugins.blame import plugin_line
 from clast.plugins.nearest import suggestion
 
 if TYPE_CHECKING:
@@ -99,6 +100,11 @@ class Failure:
 
     source: Source
     error: Exception
+
+    def __str__(self) -> str:
+        place = plugin_line(self.error)
+        where = f"{place}: " if place else ""
+        return f"plugin {self.source.plugin!r} ({self.source}) could not be loaded: {where}{one_line(self.error)}"
 
 
 class Registry:
@@ -221,31 +227,29 @@ class Registry:
             self._source = before
 
     def _check(self, kind: str, name: str, part: Part) -> None:
-        where = f"plugin {self._source.plugin!r} ({self._source})"
         if kind not in KINDS:
-            raise PluginError(f"{where}: {kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
+            raise PluginError(f"{kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
         if not _NAME.fullmatch(name):
-            raise PluginError(f"{where}: {name!r} is not a name for a {kind}: small letters, digits and _ only")
+            raise PluginError(f"{name!r} is not a name for a {kind}: small letters, digits and _ only")
         declared = getattr(part, "Params", None)
         if not (isinstance(declared, type) and issubclass(declared, Params)):
-            raise PluginError(f"{where}: {kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params")
+            raise PluginError(f"{kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params")
         if not isinstance(getattr(part, "summary", None), str):
-            raise PluginError(f"{where}: {kind} {name!r} needs 'summary', one line of text")
+            raise PluginError(f"{kind} {name!r} needs 'summary', one line of text")
 
     def _missing(self, kind: str, name: str) -> str:
         message = f"no {kind.replace('_', ' ')} is named {name!r}; {suggestion(name, self.names(kind))}"
         for failure in self.failures:
-            message += f"\n  plugin {failure.source.plugin!r} ({failure.source}) could not be loaded: "
-            message += one_line(failure.error)
+            message += f"\n  {failure}"
         if not self._parts and not self.failures:
             message += "; no plugin is installed, not even Clast's own: install it with 'pip install -e .'"
         return message
 
 
 def one_line(error: BaseException) -> str:
-    """Type and text of an error in one line, with its notes."""
-    texts = [f"{type(error).__name__}: {error}", *getattr(error, "__notes__", [])]
-    return "; ".join(" ".join(text.split()) for text in texts)
+    """Text of an error in one line, behind its type where it is not one of Clast's own."""
+    kind = "" if isinstance(error, PluginError) else f"{type(error).__name__}: "
+    return " ".join(f"{kind}{error}".split())
 
 
 def _conflict(taken: Registered, second: Source) -> str:

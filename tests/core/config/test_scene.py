@@ -240,10 +240,16 @@ def test_a_file_named_in_the_scene_brings_its_parts(load, tmp_path):
 def test_a_plugin_file_that_fails_is_told_at_its_place_with_all_other_problems(load, tmp_path):
     (tmp_path / "broken.py").write_text("x = 1\nraise RuntimeError('no')\n")
     said = _said(load, ("seed: 1", "sed: 1"), text="plugins: [broken.py, none.py]\n" + SCENE)
-    assert "scene.yaml:1:11: plugins.0: plugin file" in said
-    assert "broken.py:2: RuntimeError: no" in said
-    assert "scene.yaml:1:22: plugins.1: plugin file" in said
+    assert f"scene.yaml:1:11: plugins.0: {tmp_path}/broken.py:2: RuntimeError: no" in said
+    assert "scene.yaml:1:22: plugins.1: none.py: No such file" in said
     assert "particles.sed: not a known key" in said
+
+
+def test_parts_that_a_failing_file_would_have_brought_are_not_missed(load, tmp_path):
+    (tmp_path / "broken.py").write_text("x = 1\nraise RuntimeError('no')\n")
+    text = "plugins: [broken.py]\n" + SCENE.replace("law: hertz", "law: mine")
+    said = _said(load, ("type: elastic", "type: softening"), text=text)
+    assert said == f"scene.yaml:1:11: plugins.0: {tmp_path}/broken.py:2: RuntimeError: no"
 
 
 def test_a_scene_that_is_all_wrong_is_still_one_plain_message(load):
