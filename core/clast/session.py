@@ -11,19 +11,19 @@ from typing import Any
 
 import numpy as np
 
+from clast import writing
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import RunError
 from clast.parts.writer import Written
 from clast.results import checkpoint, curves, summary
 from clast.results.frames import Frames
+from clast.results.reading import CONFIG_FILE
 from clast.results.run import open_run
 from clast.results.samples import Samples
 from clast.results.store import Store
-from clast.results.watch import RunInterruptedError, Watch
+from clast.results.watch import GO_ON, RunInterruptedError, Watch
 from clast.simulation import Simulation
-
-CONFIG_FILE = "config.yaml"
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,8 @@ def run_scene(
         elapsed, steps = session.advance()
         return session.finish(elapsed, steps)
     except KeyboardInterrupt:  # before or after the step loop, which handles signals itself
-        raise RunInterruptedError(signal.SIGINT, resumable=session is not None) from None
+        advice = GO_ON if session is not None else "nothing was written yet"
+        raise RunInterruptedError(signal.SIGINT, advice) from None
     finally:
         if session is None:
             with suppress(OSError):
@@ -127,6 +128,7 @@ class _Session:
 
     def __init__(self, simulation: Simulation, folder: Path, resume: bool, listener: Listener) -> None:
         self.simulation, self.folder, self.listener = simulation, folder, listener
+        self.parts = summary.parts(simulation)
         notes = checkpoint.load(folder, simulation) if resume else {}
         self.store = Store(folder, resume)
         self.samples = Samples(simulation, self.store)
@@ -135,8 +137,8 @@ class _Session:
             self.store.cut(notes["lengths"])
             self.samples.previous_step = int(notes["previous_sample"])
         else:
-            (folder / CONFIG_FILE).write_text(dump_yaml(simulation.config.resolved()))
             self.store.describe(simulation)
+        (folder / CONFIG_FILE).write_text(dump_yaml(simulation.config.resolved()))
 
     def advance(self) -> tuple[float, int]:
         """Run to the end; return seconds and steps of this session."""
@@ -186,20 +188,8 @@ class _Session:
                 columns = curves.flattened(tracks, run.tracked[what], what.rstrip("s"))
                 file = self.folder / f"tracks_{what}.csv"
                 written[f"tracks of {what}"] = Written(curves.write(file, {"time_s": run.curves["time_s"], **columns}))
-            told = summary.summarise(self.simulation, run.curves, elapsed, steps)
+            told = summary.summarise(self.simulation, self.parts, run.curves, elapsed, steps)
             written["summary"] = Written(summary.write(self.folder, told))
-        with open_run(self.folder) as run:
-            for chosen in self.simulation.config.output.writers:
-                self.listener.writing(chosen.name)
-                written[chosen.name] = self._write(chosen, run)
+        writers = [chosen.name for chosen in self.simulation.config.output.writers]
+        written |= writing.write(self.folder, writers, self.listener.writing)
         return Outcome(self.folder, told, {"results": Written(self.store.path), **written})
-
-    def _write(self, chosen: Any, run: Any) -> Written:
-        path = self.folder / chosen.part.file
-        if chosen.part.needs_frames and run.n_frames == 0:
-            return Written(None, "the run keeps no frames (output.frames: 0)")
-        try:
-            result = chosen.part.write(run, chosen.params, path)
-        except Exception as error:  # results are safe on disk; no writer, built in or not, may hide them
-            return Written(None, f"not written: {error or type(error).__name__}")
-        return result if isinstance(result, Written) else Written(path)

@@ -42,9 +42,8 @@ def _find_recording(folder: Path) -> Path:
         return recording
     if not folder.is_dir():
         raise RunError(f"{folder}: there is no such run folder")
-    raise RunError(
-        f"{folder}: holds no {RECORDING_FILE}; the run has not ended, or its scene leaves out the writer `recording`"
-    )
+    advice = f"once the run has ended, `clast write {folder} recording` makes it"
+    raise RunError(f"{folder}: holds no {RECORDING_FILE}; {advice}")
 
 
 def _has_screen() -> bool:

@@ -96,20 +96,6 @@ def test_a_full_disk_ends_in_one_sentence_and_keeps_the_checkpoint(
     assert json.loads((tmp_path / "run" / "summary.json").read_text())["steps"] == 4000
 
 
-def test_a_failing_writer_does_not_lose_the_run(
-    collision: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scene = load(collision).changed({"output.writers": ["vtk"]})
-
-    def fail(*_: object) -> None:
-        raise RuntimeError("no ink")
-
-    monkeypatch.setitem(scene.output.writers[0].part.__dict__, "write", fail)
-    outcome = run_scene(scene, tmp_path / "run")
-    assert outcome.written["vtk"].skipped == "not written: no ink"
-    assert (tmp_path / "run" / "summary.json").exists()
-
-
 def test_a_step_above_the_limit_is_refused(crush: Path) -> None:
     with pytest.raises(ConfigError, match="above the stability limit"):
         Simulation(load(crush).changed({"time.step": "2e-6 s"}))

@@ -11,7 +11,6 @@ from clast.parts.params import Params
 from clast.parts.writer import Written
 from clast.results.run import Reference, Run
 from clast_viz.curves import has_compression, peak
-from clast_viz.whole_file import whole_file
 
 FILE = "stress_strain.png"
 
@@ -40,7 +39,7 @@ class FigureParams(Params):
 def write_figure(run: Run, params: FigureParams, path: Path) -> Written:
     """Write ``stress_strain.png``: the curve, its peak, the reference points, the bonds broken."""
     if not has_compression(run):
-        return Written(None, "no stress–strain figure: the scene has no compression, or no sample was taken")
+        return Written(None, "the scene has no compression, or no sample was taken")
     import matplotlib as mpl
 
     with mpl.rc_context(STYLE):
@@ -54,8 +53,7 @@ def write_figure(run: Run, params: FigureParams, path: Path) -> Written:
             lower.plot(percent, broken, color=BROKEN_COLOUR, linewidth=1.4)
             lower.fill_between(percent, broken, color=BROKEN_COLOUR, alpha=0.18, linewidth=0)
         finish_axes(upper, lower)
-        with whole_file(path) as draft:
-            save(figure, draft, params.dpi)
+        save(figure, path, params.dpi)
     return Written(path)
 
 

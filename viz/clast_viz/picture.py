@@ -15,7 +15,6 @@ from clast.results.run import Frame, Run
 from clast_viz.curves import peak_frame
 from clast_viz.loads import drawn_bonds, load_colours, signed_load
 from clast_viz.renderer import NO_RENDERER, RendererProbe, quiet_vtk
-from clast_viz.whole_file import whole_file
 
 FILE = "picture.png"
 
@@ -38,14 +37,14 @@ class PictureParams(Params):
 def write_picture(run: Run, params: PictureParams, path: Path) -> Written:
     """Write ``picture.png`` of the frame before the peak stress, or of the last one without a curve."""
     if run.n_frames == 0:
-        return Written(None, "no picture: the run has recorded no frame")
+        return Written(None, "the run has recorded no frame")
     probe = RendererProbe()
     import pyvista.plotting  # noqa: F401  a second of loading while the probe runs
 
     if not probe.can_render():
         return Written(None, NO_RENDERER)
-    with whole_file(path) as draft, quiet_vtk():
-        _draw(run, run.frame(peak_frame(run)), params, draft)
+    with quiet_vtk():
+        _draw(run, run.frame(peak_frame(run)), params, path)
     return Written(path)
 
 

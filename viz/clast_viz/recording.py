@@ -17,7 +17,6 @@ from clast_viz.recording_layout import layout, magnification
 from clast_viz.recording_plot import Plot, log_plot, log_plot_until
 from clast_viz.recording_series import Events, log_curves, log_peak
 from clast_viz.recording_time import Timelines
-from clast_viz.whole_file import whole_file
 
 FILE = "recording.rrd"
 
@@ -48,30 +47,29 @@ def write_recording(run: Run, params: RecordingParams, path: Path) -> Written:
     import rerun as rr
 
     if run.n_frames == 0:
-        return Written(None, "no recording: the run has recorded no frame")
+        return Written(None, "the run has recorded no frame")
     timelines = Timelines.of(run)
     plot = Plot.of(run)
-    with whole_file(path) as draft:
-        # a fixed id and no clock make the recordings of two equal runs equal
-        stream = rr.RecordingStream(
-            "clast", recording_id=f"{run.name} in {run.folder.resolve().name}", send_properties=False
-        )
-        stream.set_log_time_enabled(False)
-        stream.set_log_tick_enabled(False)
-        stream.set_sinks(rr.FileSink(draft), default_blueprint=layout(run, timelines, plot))
-        _log_static(stream, run)
-        log_curves(stream, run, timelines)
-        log_plot(stream, run, plot)
-        events = Events(run, timelines)
-        for k in range(run.n_frames):
-            frame = run.frame(k)
-            timelines.set(stream, k)
-            _log_frame(stream, run, frame, _new_cracks(run, timelines, k), params.bond_budget)
-            events.log_frame(stream, k, frame)
-            log_plot_until(stream, run, plot, frame.time)
-        log_peak(stream, run, timelines)
-        stream.flush()
-        stream.disconnect()
+    # a fixed id and no clock make the recordings of two equal runs equal
+    stream = rr.RecordingStream(
+        "clast", recording_id=f"{run.name} in {run.folder.resolve().name}", send_properties=False
+    )
+    stream.set_log_time_enabled(False)
+    stream.set_log_tick_enabled(False)
+    stream.set_sinks(rr.FileSink(path), default_blueprint=layout(run, timelines, plot))
+    _log_static(stream, run)
+    log_curves(stream, run, timelines)
+    log_plot(stream, run, plot)
+    events = Events(run, timelines)
+    for k in range(run.n_frames):
+        frame = run.frame(k)
+        timelines.set(stream, k)
+        _log_frame(stream, run, frame, _new_cracks(run, timelines, k), params.bond_budget)
+        events.log_frame(stream, k, frame)
+        log_plot_until(stream, run, plot, frame.time)
+    log_peak(stream, run, timelines)
+    stream.flush()
+    stream.disconnect()
     return Written(path)
 
 

@@ -18,8 +18,8 @@ window.Render()
 """
 
 NO_RENDERER = (
-    "no picture: this machine has no OpenGL renderer; install Mesa "
-    "(Debian and Ubuntu: `apt install libegl1 libgl1-mesa-dri`, or `libosmesa6`) and export the run again"
+    "this machine has no OpenGL renderer; install Mesa "
+    "(Debian and Ubuntu: `apt install libegl1 libgl1-mesa-dri`, or `libosmesa6`), then `clast write RUN picture`"
 )
 
 

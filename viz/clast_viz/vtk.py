@@ -13,7 +13,6 @@ from clast.parts.params import Params
 from clast.parts.writer import Written
 from clast.results.run import Frame, Run
 from clast_viz.column import Column
-from clast_viz.whole_file import whole_file
 
 FILE = "particles.vtkhdf"
 
@@ -38,9 +37,9 @@ def write_vtk(run: Run, params: VtkParams, path: Path) -> Written:
     import h5py
 
     if run.n_frames == 0:
-        return Written(None, "no VTK file: the run has recorded no frame")
+        return Written(None, "the run has recorded no frame")
     # VTK reads nothing, without a word, from files in the newest HDF5 layout
-    with whole_file(path) as draft, h5py.File(draft, "w", libver=("earliest", "v110")) as file:
+    with h5py.File(path, "w", libver=("earliest", "v110")) as file:
         polydata = TemporalPolyData(file)
         for k in _chosen_frames(run.n_frames, params.every):
             _append_frame(polydata, run, run.frame(k))

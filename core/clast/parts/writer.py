@@ -26,7 +26,8 @@ class Writer:
     """The part a plugin registers with ``registry.writer(name, Writer(...))``.
 
     A writer is a pure function of a run's results, so a resumed run ends in the same files as an uninterrupted
-    one, and any run can be exported again later.
+    one, and any run can be exported again later. It runs in a process of its own, so what it raises, or a crash, costs
+    its file and nothing else.
 
     Attributes
     ----------
@@ -39,7 +40,8 @@ class Writer:
     file : str
         Name of the file it writes inside the run folder.
     write : (run, params, path) -> Written
-        Reads the run, writes ``path``.
+        Reads the run, writes ``path``. The path lies in an empty folder: whatever a writer leaves there is moved to the
+        run folder when it ends, and thrown away when it fails.
     """
 
     summary: str

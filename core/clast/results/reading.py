@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from clast.errors import RunError
 
 RESULTS_FILE = "results.h5"
+CONFIG_FILE = "config.yaml"
 SCHEMA = 1
 _NEEDED_GROUPS = ("particles", "bonds", "curves", "cracks")
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from clast.errors import RunError
 from clast.results.reading import (
+    CONFIG_FILE,
     RESULTS_FILE,
     check_contents,
     common_length,
@@ -168,8 +169,8 @@ class Run:
         self._frames = file.get("frames", {})
         self.n_frames = min((len(dataset) for dataset in self._frames.values()), default=0)
         self.summary = read_json(self.folder / "summary.json")
-        self.config = read_yaml(self.folder / "config.yaml")
-        self.reference = _references(self.folder / "config.yaml", self.config)
+        self.config = read_yaml(self.folder / CONFIG_FILE)
+        self.reference = _references(self.folder / CONFIG_FILE, self.config)
 
     def _read_scene(self, file: Any) -> None:
         self.radius: NDArray[np.float64] = file["particles/radius"][:]

@@ -20,15 +20,18 @@ from clast.simulation import Simulation
 FILE = "summary.json"
 LIBRARIES = ("numpy", "numba", "h5py", "scipy")
 Curves = dict[str, NDArray[np.float64]]
+Parts = dict[str, dict[str, str]]
 
 
-def summarise(simulation: Simulation, curves: Curves, wall_time: float, steps_now: int) -> dict[str, Any]:
+def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: float, steps_now: int) -> dict[str, Any]:
     """Return the summary of a run.
 
     Parameters
     ----------
     simulation : Simulation
         At its end.
+    parts : mapping
+        What :func:`parts` told when the run began: files may be edited meanwhile.
     curves : mapping of (s,) arrays
         The sampled curves.
     wall_time : float
@@ -42,7 +45,7 @@ def summarise(simulation: Simulation, curves: Curves, wall_time: float, steps_no
     return {
         "name": simulation.config.name,
         "versions": versions(),
-        "parts": parts(simulation),
+        "parts": parts,
         "kernel": simulation.kernel.digest,
         "counts": {
             "particles": len(scene.radius),
@@ -75,7 +78,7 @@ def versions() -> dict[str, str]:
     return {"clast": __version__, "python": platform.python_version()} | {name: version(name) for name in LIBRARIES}
 
 
-def parts(simulation: Simulation) -> dict[str, dict[str, str]]:
+def parts(simulation: Simulation) -> Parts:
     """Return every part a scene uses, with where it comes from and a digest of its source files."""
     return {
         f"{chosen.kind}.{chosen.name}": {"source": str(chosen.source), "digest": part_digest(chosen.part)}

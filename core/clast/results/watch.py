@@ -5,23 +5,38 @@ from __future__ import annotations
 import signal
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from clast.errors import RunError
-from clast.simulation import Simulation
+
+if TYPE_CHECKING:
+    from clast.simulation import Simulation
 
 LOOK_EVERY = 0.2
+GO_ON = "go on with --resume"
 
 
 class RunInterruptedError(RunError):
     """The run was asked to stop by Ctrl-C or SIGTERM; its exit code is 128 plus the signal's number."""
 
-    def __init__(self, number: int, resumable: bool = True) -> None:
-        advice = "go on with --resume" if resumable else "nothing was written yet"
+    def __init__(self, number: int, advice: str = GO_ON) -> None:
         super().__init__(f"stopped by {signal.Signals(number).name}; {advice}")
         self.exit_code = 128 + number
+
+
+@contextmanager
+def signals_to(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
+    """Hand SIGINT and SIGTERM to a function meanwhile, where Python allows it: in the main thread."""
+    mine = threading.current_thread() is threading.main_thread()
+    before = {number: signal.signal(number, handler) for number in ((signal.SIGINT, signal.SIGTERM) if mine else ())}
+    try:
+        yield
+    finally:
+        for number, earlier in before.items():
+            signal.signal(number, earlier)
 
 
 class Watch:
@@ -48,16 +63,14 @@ class Watch:
         self.signal = 0
 
     def __enter__(self) -> Watch:
-        """Take over SIGINT and SIGTERM, where Python allows it: in the main thread."""
-        mine = threading.current_thread() is threading.main_thread()
-        numbers = (signal.SIGINT, signal.SIGTERM) if mine else ()
-        self._before = {number: signal.signal(number, self._note) for number in numbers}
+        """Take over SIGINT and SIGTERM."""
+        self._signals = signals_to(self._note)
+        self._signals.__enter__()
         return self
 
     def __exit__(self, *reason: object) -> None:
         """Give the signals back."""
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
+        self._signals.__exit__(None, None, None)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
         self.signal = number
