@@ -94,7 +94,7 @@ def check(file: Path, overrides: tuple[str, ...], build: bool) -> None:
 
         click.echo(build_report.report(scene))
         return
-    from clast.config.forecast import forecast
+    from clast.forecast import forecast
 
     click.echo(f"{file}: valid\n{forecast(scene).text()}")
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from clast.config.scene import SceneConfig, load
+from clast.forecast import duration, run_seconds, time_concerns
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
 
@@ -78,7 +79,10 @@ class Lines(Listener):
         """Tell the size of the run."""
         scene = simulation.scene
         left = simulation.last_step - simulation.step
-        self.say(f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left} steps of {simulation.dt:.3g} s")
+        self.say(f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left:,} steps of {simulation.dt:.3g} s")
+        seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)
+        for line in time_concerns(simulation.config, left, seconds):
+            self.say(line)
         self.last = time.monotonic()
 
     def progress(self, simulation: Simulation, rate: float) -> None:
@@ -142,18 +146,6 @@ def status(simulation: Simulation, rate: float) -> list[str]:
         parts.append(f"{simulation.bonds_broken} bonds broken")
     left = (simulation.last_step - simulation.step) / max(rate, 1e-9)
     return [*parts, f"{rate:,.0f} steps/s", f"{duration(left)} left"]
-
-
-def duration(seconds: float) -> str:
-    """Return a time span in words.
-
-    >>> duration(5), duration(200), duration(8000)
-    ('5 s', '3 min 20 s', '2 h 13 min')
-    """
-    s = round(seconds)
-    if s < 60:
-        return f"{s} s"
-    return f"{s // 60} min {s % 60} s" if s < 3600 else f"{s // 3600} h {s % 3600 // 60} min"
 
 
 def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:

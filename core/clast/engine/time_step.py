@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint
 from clast.scene.plan import bond_stiffness, material_pairs
 from clast.scene.scene import Scene
@@ -103,6 +104,18 @@ def network_limit(scene: Scene) -> float:
     return float(2.0 / frequency) if frequency > 0.0 else np.inf
 
 
+def pair_limit(scene: Scene) -> float:
+    """Return the smallest 2/√(K (1/m_i + 1/m_j)) of a bond whose ends are free otherwise: ``network`` is never above.
+
+    The other bonds only add energy to the stretching of this one, so the network's ω_max is at least as large.
+    """
+    if len(scene.ends) == 0:
+        return np.inf
+    inverse_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)
+    square = float(np.max(bond_stiffness(scene).axial * inverse_mass[scene.ends].sum(axis=1)))
+    return float(2.0 / np.sqrt(square)) if square > 0.0 else np.inf
+
+
 def choose_step(scene: Scene, found: Limits) -> float:
     """Return the time step a config asks for.
 
@@ -111,16 +124,29 @@ def choose_step(scene: Scene, found: Limits) -> float:
     ConfigError
         If a fixed step is above the limit, or no rule gives a finite one.
     """
-    time = scene.config.time
-    step = time.step if isinstance(time.step, float) else time.step.factor * found.paper
-    if not np.isfinite(step):
-        text = "no limit applies to this scene, so the rule gives no step; write one, for instance 'step: 1e-6 s'"
-        raise scene.config.problem(("time", "step"), text)
-    if step > found.stable and not time.allow_unstable:
+    step = asked_step(scene.config, found.paper)
+    if step > found.stable and not scene.config.time.allow_unstable:
         cause = "bonds" if found.network * found.damping == found.stable else "contacts"
         raise scene.config.problem(
             ("time", "step"),
             f"{step:.4g} s is above the stability limit of the {cause}, {found.stable:.4g} s; take a smaller step, "
             "raise time.mass_scaling, or set time.allow_unstable",
         )
-    return float(step)
+    return step
+
+
+def asked_step(config: SceneConfig, limit: float) -> float:
+    """Return the fixed step of a config, or what its rule makes of the paper's limit, in s.
+
+    Raises
+    ------
+    ConfigError
+        If no rule gives a finite one.
+    """
+    rule = config.time.step
+    if isinstance(rule, float):
+        return rule
+    if not np.isfinite(limit):
+        text = "no limit applies to this scene, so the rule gives no step; write one, for instance 'step: 1e-6 s'"
+        raise config.problem(("time", "step"), text)
+    return rule.factor * limit

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,12 +77,40 @@ class Packing:
     origin: Callable[[int], KeyPath | str] = lambda k: ()
 
 
+class Gaps(NamedTuple):
+    """Bounds, both included, of the gap between two surfaces in m; overlaps are negative gaps."""
+
+    least: float
+    most: float
+
+
+class Estimate(NamedTuple):
+    """A number told beforehand: within ``value`` · (1 ± ``band``), most probably; exact with the band 0."""
+
+    value: float
+    band: float = 0.0
+
+
 @dataclass(frozen=True)
 class Prediction:
-    """What a generator will make, told without making it."""
+    """What a generator will make, told without making it.
+
+    Attributes
+    ----------
+    particles : int
+    radius : float
+        Of the smallest particle in m.
+    material : str
+        Of the smallest particle.
+    bonds : Estimate or None
+        Bonds the packing brings itself, and pairs of one grain that the scene bonds for their gap; None where only
+        packing can tell.
+    """
 
     particles: int
-    bonds: int | None = None
+    radius: float
+    material: str
+    bonds: Estimate | None = None
 
 
 @dataclass(frozen=True)
@@ -97,11 +125,12 @@ class Generator:
         What the user writes in YAML.
     generate : (params, folder) -> Packing
         ``folder`` is the folder of the scene file, for relative paths.
-    predict : (params, folder) -> Prediction
-        Counts without packing; must take milliseconds.
+    predict : (params, folder, gaps) -> Prediction, optional
+        What ``clast check`` tells, in milliseconds; ``gaps`` are those the scene bonds, None where it bonds none.
+        Without it ``clast check`` calls ``generate``: leave it out where that takes no time.
     """
 
     summary: str
     Params: type[Params]
     generate: Callable[[Any, Path], Packing]
-    predict: Callable[[Any, Path], Prediction]
+    predict: Callable[[Any, Path, Gaps | None], Prediction] | None = None

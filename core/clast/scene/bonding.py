@@ -11,6 +11,8 @@ from clast.parts.generator import BondList
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+FEW = 32
+"""So few particles are compared each with each, which spares importing scipy."""
 
 
 def bond_neighbours(
@@ -87,17 +89,23 @@ def close_pairs(position: Floats, radius: Floats, max_gap: float) -> tuple[Ints,
     gap : (m,) float64
         In m.
     """
-    reach = 2.0 * float(radius.max(initial=0.0)) + max_gap
-    if len(position) < 2 or reach < 0.0:
-        return np.zeros((0, 2), np.int64), np.zeros(0)
-    from scipy.spatial import cKDTree
-
-    # the tree rounds distances its own way: ask it for a little more and decide below
-    found = cKDTree(position).query_pairs(reach * (1.0 + 1e-9), output_type="ndarray")
-    ends = np.sort(found.astype(np.int64), axis=1)
-    ends = ends[np.lexsort((ends[:, 1], ends[:, 0]))]
+    ends = _candidates(position, 2.0 * float(radius.max(initial=0.0)) + max_gap)
     way = position[ends[:, 0]] - position[ends[:, 1]]
     distance = np.sqrt(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2)
     gap = distance - (radius[ends[:, 0]] + radius[ends[:, 1]])
     close = gap <= max_gap
     return ends[close], gap[close]
+
+
+def _candidates(position: Floats, reach: float) -> Ints:
+    """Return every pair nearer than ``reach``, and perhaps some that are farther, (m, 2) with ``i < j`` rising."""
+    if len(position) <= FEW:
+        return np.column_stack(np.triu_indices(len(position), 1)).astype(np.int64)
+    if reach < 0.0:
+        return np.zeros((0, 2), np.int64)
+    from scipy.spatial import cKDTree
+
+    # the tree rounds distances its own way: ask it for a little more
+    found = cKDTree(position).query_pairs(reach * (1.0 + 1e-9), output_type="ndarray")
+    ends = np.sort(found.astype(np.int64), axis=1)
+    return np.asarray(ends[np.lexsort((ends[:, 1], ends[:, 0]))])

@@ -70,15 +70,21 @@ class Gauge:
         Raises
         ------
         ConfigError
-            If the plates never reach the strain.
+            If the plates never reach the strain, or only after more steps than can be counted.
         """
         end = self.config.time.end
-        if end.steps is not None:
-            return int(end.steps)
+        steps = float(end.steps) if end.steps is not None else self._end_time() / dt
+        if not steps <= MOST_STEPS:
+            text = f"{steps:.3g} steps of {dt:.3g} s, more than {MOST_STEPS:.0e}; end earlier, or raise time.step"
+            raise self.config.problem(("time", "end"), text)
+        return max(1, ceil(steps - 1e-9))
+
+    def _end_time(self) -> float:
+        end = self.config.time.end
         if end.time is not None:
-            return max(1, ceil(end.time / dt - 1e-9))
+            return end.time
         assert end.strain is not None
-        return max(1, ceil(self._time_of(end.strain * self.height) / dt - 1e-9))
+        return self._time_of(end.strain * self.height)
 
     def _time_of(self, displacement: float) -> float:
         """Return when the plates have approached by a displacement, in s."""

@@ -97,6 +97,16 @@ def sphere_volume(diameter: float) -> float:
     return math.pi / 6.0 * diameter**3
 
 
+def cut_sphere_surface(diameter: float, height: float) -> float:
+    """Return the surface of a sphere between two planes at ± half the height, the two cuts included.
+
+    >>> math.isclose(cut_sphere_surface(2.0, 2.0), 4.0 * math.pi)
+    True
+    """
+    height = min(height, diameter)
+    return math.pi * diameter * height + 0.5 * math.pi * (diameter**2 - height**2)
+
+
 def cut_sphere_volume(diameter: float, height: float) -> float:
     """Return the volume of a sphere between two planes at ± half the height: π h (D²/4 − h²/12).
 

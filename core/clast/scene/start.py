@@ -18,15 +18,26 @@ def check_start(scene: Scene) -> None:
         If two materials that can touch have no settings, walls have no contact law, a track names what is not there,
         or bodies overlap too much.
     """
+    check_contacts(scene)
     _refuse_missing_tracks(scene)
-    if scene.config.contacts is None:
-        if scene.config.walls:
-            text = "particles fall through walls without a section 'contacts'; add it with a law, or remove the walls"
-            raise scene.config.problem(("walls",), text)
-        return
-    material_pairs(scene)
-    _refuse_particle_overlaps(scene)
-    _refuse_wall_overlaps(scene)
+    if scene.config.contacts is not None:
+        _refuse_particle_overlaps(scene)
+        _refuse_wall_overlaps(scene)
+
+
+def check_contacts(scene: Scene) -> None:
+    """Check what needs no positions: that walls have a contact law, and materials that can touch settings.
+
+    Raises
+    ------
+    ConfigError
+        If they have not.
+    """
+    if scene.config.contacts is not None:
+        material_pairs(scene)
+    elif scene.config.walls:
+        text = "particles fall through walls without a section 'contacts'; add it with a law, or remove the walls"
+        raise scene.config.problem(("walls",), text)
 
 
 def _refuse_missing_tracks(scene: Scene) -> None:

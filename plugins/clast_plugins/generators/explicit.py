@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length, Point, SpinVector, VelocityVector
-from clast.parts.generator import BondList, Generator, Packing, Prediction
+from clast.parts.generator import BondList, Generator, Packing
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.grains import connected_grains
@@ -87,11 +87,6 @@ def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[Explic
     return problems
 
 
-def predict(params: Explicit, folder: Path) -> Prediction:
-    """Return the number of particles and bonds written."""
-    return Prediction(len(params.particles), len(params.bonds))
-
-
 def generate(params: Explicit, folder: Path) -> Packing:
     """Put the written particles and bonds into arrays."""
     particles = params.particles
@@ -127,6 +122,5 @@ def clast_register(registry: Registry) -> None:
             summary="particles and bonds written in the scene",
             Params=Explicit,
             generate=generate,
-            predict=predict,
         ),
     )

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length
-from clast.parts.generator import Generator, Packing, Prediction
+from clast.parts.generator import Gaps, Generator, Packing, Prediction
 from clast.plugins.registry import Registry
 from clast.scene.packing_report import cut_sphere_volume, porosity
 from clast_plugins.generators.packing.agglomerate import (
@@ -20,6 +20,7 @@ from clast_plugins.generators.packing.agglomerate import (
     make_agglomerate,
     millimetres,
     number_of_primaries,
+    predict_agglomerate,
 )
 
 
@@ -61,9 +62,9 @@ class FlattenedAgglomerate(AgglomerateParams):
         return self
 
 
-def predict(params: FlattenedAgglomerate, folder: Path) -> Prediction:
-    """Return how many primaries there will be; their bonds are known only once they are packed."""
-    return Prediction(number_of_primaries(params, params.volume_diameter))
+def predict(params: FlattenedAgglomerate, folder: Path, gaps: Gaps | None) -> Prediction:
+    """Return how many primaries there will be, and about how many bonds."""
+    return predict_agglomerate(params, _body(params), number_of_primaries(params, params.volume_diameter), gaps)
 
 
 def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
@@ -75,9 +76,13 @@ def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """
     count = number_of_primaries(params, params.volume_diameter)
-    words = f"a sphere of {millimetres(params.volume_diameter)} cut to a height of {millimetres(params.height)}"
-    packing, reached = make_agglomerate(params, Body(params.volume_diameter, params.height, words), count)
+    packing, reached = make_agglomerate(params, _body(params), count)
     return replace(packing, report={"primaries": count, **_shape(params, packing), **reached})
+
+
+def _body(params: FlattenedAgglomerate) -> Body:
+    words = f"a sphere of {millimetres(params.volume_diameter)} cut to a height of {millimetres(params.height)}"
+    return Body(params.volume_diameter, params.height, words)
 
 
 def _shape(params: FlattenedAgglomerate, packing: Packing) -> dict[str, float]:

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from clast import hookimpl
 from clast.errors import about
-from clast.parts.generator import BondList, Generator, Packing, Prediction
+from clast.parts.generator import BondList, Generator, Packing
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.csv_table import Table, distinct, read_table
@@ -131,12 +131,6 @@ def read(params: FromFile, folder: Path) -> tuple[ParticleTable, BondList | None
         return particles, read_bonds(folder / params.bonds, particles)
 
 
-def predict(params: FromFile, folder: Path) -> Prediction:
-    """Return the number of particles and bonds in the files, which are read and checked."""
-    particles, bonds = read(params, folder)
-    return Prediction(len(particles.ids), 0 if bonds is None else len(bonds.ends))
-
-
 def generate(params: FromFile, folder: Path) -> Packing:
     """Read the particles and bonds.
 
@@ -175,6 +169,5 @@ def clast_register(registry: Registry) -> None:
             summary="particles and bonds read from CSV tables",
             Params=FromFile,
             generate=generate,
-            predict=predict,
         ),
     )

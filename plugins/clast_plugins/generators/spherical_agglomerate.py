@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length
-from clast.parts.generator import Generator, Packing, Prediction
+from clast.parts.generator import Gaps, Generator, Packing, Prediction
 from clast.plugins.registry import Registry
 from clast.scene.packing_report import porosity, sphere_volume
 from clast_plugins.generators.packing.agglomerate import (
@@ -20,6 +20,7 @@ from clast_plugins.generators.packing.agglomerate import (
     make_agglomerate,
     millimetres,
     number_of_primaries,
+    predict_agglomerate,
 )
 
 
@@ -56,9 +57,9 @@ class SphericalAgglomerate(AgglomerateParams):
         return self
 
 
-def predict(params: SphericalAgglomerate, folder: Path) -> Prediction:
-    """Return how many primaries there will be; their bonds are known only once they are packed."""
-    return Prediction(number_of_primaries(params, params.diameter))
+def predict(params: SphericalAgglomerate, folder: Path, gaps: Gaps | None) -> Prediction:
+    """Return how many primaries there will be, and about how many bonds."""
+    return predict_agglomerate(params, _body(params), number_of_primaries(params, params.diameter), gaps)
 
 
 def generate(params: SphericalAgglomerate, folder: Path) -> Packing:
@@ -70,11 +71,14 @@ def generate(params: SphericalAgglomerate, folder: Path) -> Packing:
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """
     count = number_of_primaries(params, params.diameter)
-    body = Body(params.diameter, math.inf, f"a sphere of {millimetres(params.diameter)}")
-    packing, reached = make_agglomerate(params, body, count)
+    packing, reached = make_agglomerate(params, _body(params), count)
     free = porosity(packing.radius, sphere_volume(params.diameter))
     asked = {} if params.porosity is None else {"porosity_asked": params.porosity}
     return replace(packing, report={"primaries": count, **asked, "porosity_reached": free, **reached})
+
+
+def _body(params: SphericalAgglomerate) -> Body:
+    return Body(params.diameter, math.inf, f"a sphere of {millimetres(params.diameter)}")
 
 
 @hookimpl

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-from fake_parts import SCENE, Ball, Elastic, Explicit, FakeMotion, FakePart, Moving, Nothing, Plane
+from fake_parts import SCENE, Ball, Elastic, Explicit, FakePart, Moving, Nothing, Plane
 
 from clast.config import scene as scene_module
-from clast.parts.generator import Generator, Prediction
+from clast.parts.generator import Generator
 from clast.plugins.registry import Registry, Source
 
 
@@ -14,8 +14,8 @@ from clast.plugins.registry import Registry, Source
 def registry() -> Registry:
     fakes = Registry()
     with fakes.registering(Source("fakes", "fake-distribution", "1.2")):
-        fakes.generator("ball", Generator("A ball.", Ball, None, lambda params, folder: Prediction(100, 600)))
-        fakes.generator("explicit", Generator("Written.", Explicit, None, lambda p, f: Prediction(len(p.grains))))
+        fakes.generator("ball", Generator("A ball.", Ball, None))
+        fakes.generator("explicit", Generator("Written.", Explicit, None))
         for add, name, declared in [
             (fakes.bond_model, "elastic", Elastic),
             (fakes.bond_kinematics, "total", Nothing),
@@ -28,7 +28,7 @@ def registry() -> Registry:
             (fakes.writer, "table", Nothing),
         ]:
             add(name, FakePart(f"The {name}.", declared))
-        fakes.motion("moving", FakeMotion("Moves.", Moving))
+        fakes.motion("moving", FakePart("Moves.", Moving))
     return fakes
 
 

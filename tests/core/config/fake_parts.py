@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -73,12 +73,3 @@ class Moving(Params):
 class FakePart:
     summary: str
     Params: type[Params]
-
-
-@dataclass(frozen=True)
-class FakeMotion(FakePart):
-    def course(self, params: Any) -> Any:
-        return params
-
-    def velocity(self, course: Any, time: float) -> Any:
-        return course.velocity

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from clast.config.forecast import forecast
 from clast.config.scene import from_mapping, load
 from clast.config.yaml_loader import dump_yaml, parse_document
+from clast.forecast import forecast
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 

@@ -63,16 +63,16 @@ def optimised_grain() -> Packing:
 
 @pytest.mark.parametrize(("porosity", "count"), [(0.44, 361), (0.45, 354), (0.60, 257)])
 def test_the_number_of_primaries_follows_from_the_porosity(porosity: float, count: int) -> None:
-    assert spherical_agglomerate.predict(sphere(porosity=porosity), HERE).particles == count
+    assert spherical_agglomerate.predict(sphere(porosity=porosity), HERE, None).particles == count
 
 
 def test_a_count_that_comes_out_even_is_not_lost_to_rounding() -> None:
     params = sphere(diameter="0.3 mm", primary_diameter="0.1 mm", porosity=1 - 9 / 27)
-    assert spherical_agglomerate.predict(params, HERE).particles == 9
+    assert spherical_agglomerate.predict(params, HERE, None).particles == 9
 
 
 def test_the_flattened_grain_counts_from_the_uncut_sphere() -> None:
-    assert flattened_agglomerate.predict(flattened(), HERE).particles == 428
+    assert flattened_agglomerate.predict(flattened(), HERE, None).particles == 428
 
 
 def test_the_base_grain_has_as_many_bonds_as_the_paper_says(base_grain: Packing) -> None:

@@ -55,11 +55,6 @@ def test_bonds_name_particles_by_their_places_and_make_grains() -> None:
     assert packing.grain.tolist() == [0, -1, 0, 0]
 
 
-def test_the_prediction_is_the_count() -> None:
-    params = scene(particle(0), particle(2), bonds=[{"between": [0, 1], "diameter": 1e-3}])
-    assert explicit.predict(params, HERE) == explicit.Prediction(2, 1)
-
-
 @pytest.mark.parametrize("moving", [{"velocity": [0, 0, 1]}, {"spin": [0, 0, 1]}])
 def test_a_fixed_particle_with_a_velocity_is_a_contradiction(moving: dict[str, Any]) -> None:
     with pytest.raises(ValidationError, match="take 'prescribed: true'"):

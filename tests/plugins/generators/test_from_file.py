@@ -35,11 +35,6 @@ def test_the_reference_grain_is_read_to_the_last_bit() -> None:
     assert np.all(packing.grain == 0)
 
 
-def test_the_prediction_counts_without_packing() -> None:
-    params = FromFile(particles="particles.csv", bonds="bonds.csv", material="glass")
-    assert from_file.predict(params, GRAIN_A) == from_file.Prediction(361, 2154)
-
-
 def test_ids_name_particles_and_may_be_any_integers(tmp_path: Path) -> None:
     packing = read(tmp_path, bonds="i,j,diameter\n3,7,1e-3\n")
     assert packing.bonds.ends.tolist() == [[1, 0]]
@@ -134,15 +129,15 @@ def test_two_particles_with_one_centre_need_an_initial_length(tmp_path: Path) ->
 def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
     read(tmp_path)
     with pytest.raises(ConfigError, match=r"pp\.csv: there is no such file \(did you mean 'p\.csv'\?\)"):
-        from_file.predict(FromFile(particles="pp.csv", material="glass"), tmp_path)
+        from_file.generate(FromFile(particles="pp.csv", material="glass"), tmp_path)
 
 
 def test_a_folder_or_a_binary_file_is_no_table(tmp_path: Path) -> None:
     (tmp_path / "p.bin").write_bytes(b"\x89HDF\r\n\x1a\n\xff\xfe")
     with pytest.raises(ConfigError, match="not a text file"):
-        from_file.predict(FromFile(particles="p.bin", material="glass"), tmp_path)
+        from_file.generate(FromFile(particles="p.bin", material="glass"), tmp_path)
     with pytest.raises(ConfigError, match="cannot be read"):
-        from_file.predict(FromFile(particles=".", material="glass"), tmp_path)
+        from_file.generate(FromFile(particles=".", material="glass"), tmp_path)
 
 
 def test_a_particle_without_material_is_refused(tmp_path: Path) -> None:

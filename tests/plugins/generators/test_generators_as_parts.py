@@ -28,10 +28,11 @@ def test_validating_and_predicting_imports_neither_scipy_nor_numba() -> None:
     script = (
         "import sys\n"
         "from pathlib import Path\n"
+        "from clast.parts.generator import Gaps\n"
         f"from clast_plugins.generators import {', '.join(NAMES)}\n"
         "part = spherical_agglomerate\n"
         "given = dict(material='glass', diameter='2 mm', primary_diameter='0.2 mm', porosity=0.5)\n"
-        "part.predict(part.SphericalAgglomerate(**given), Path())\n"
+        "part.predict(part.SphericalAgglomerate(**given), Path(), Gaps(0.0, 1e-4))\n"
         "print(sorted({'scipy', 'numba', 'pandas'} & set(sys.modules)))\n"
     )
     ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, env=_environment())

@@ -10,10 +10,11 @@ from pydantic import Field
 
 from clast.config.quantities import Length, Number, Point
 from clast.errors import PackingError
-from clast.parts.generator import Packing
+from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.parts.params import Params
-from clast.scene.packing_report import contact_coordination, overlaps
+from clast.scene.packing_report import contact_coordination, cut_sphere_surface, cut_sphere_volume, overlaps
 from clast_plugins.generators.packing.container import Floats, around
+from clast_plugins.generators.packing.near_pairs import near_pairs
 from clast_plugins.generators.packing.relax import Relaxed, relax
 
 MOST_PRIMARIES = 10_000_000
@@ -81,6 +82,18 @@ def number_of_primaries(params: AgglomerateParams, diameter: float) -> int:
         )
     # 0.5 · 2³ must give 4 however the diameters round
     return math.floor(exact * (1.0 + 1e-12))
+
+
+def predict_agglomerate(params: AgglomerateParams, body: Body, count: int, gaps: Gaps | None) -> Prediction:
+    """Return what packing ``count`` primaries into a body will make, with the bonds between near ones."""
+    d = params.primary_diameter
+    if gaps is None:
+        bonds: Estimate | None = Estimate(0.0)
+    else:
+        size = (body.diameter / d, body.height / d)
+        wanted = Gaps(gaps.least / d, gaps.most / d)
+        bonds = near_pairs(count, cut_sphere_volume(*size), cut_sphere_surface(*size), wanted)
+    return Prediction(count, 0.5 * d, params.material, bonds)
 
 
 def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple[Packing, dict[str, float | int | str]]:

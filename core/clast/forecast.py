@@ -1,0 +1,252 @@
+"""Forecast: what a scene will cost, told without packing it.
+
+A forecast looks at a sample of the scene: of what is written down everything, of what must be packed two touching
+primaries. Materials, contact settings and the rule of the time step are then those of the scene itself.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+
+import numpy as np
+
+from clast.config.choice import Chosen
+from clast.config.scene import SceneConfig
+from clast.config.sections import StepRule
+from clast.engine.time_step import asked_step, bond_limit, contact_limit, pair_limit, rayleigh_limit
+from clast.parts.generator import Estimate, Gaps, Packing, Prediction
+from clast.scene.compression import Gauge
+from clast.scene.scene import Scene, generated, join
+from clast.scene.start import check_contacts, check_start
+
+# seconds a step, measured on one core of an AMD EPYC (family 25, model 1) with grains of 361 to 17 700 primaries:
+# 30 ns a bond where everything fits into the cache, 45 ns where not
+PARTICLE_SECONDS, BOND_SECONDS, PAIR_SECONDS = 12e-9, 40e-9, 12e-9
+# pairs that may touch, beside the bonded ones: half the coordination number of a loose random packing
+PAIRS_PER_PARTICLE = 3.0
+# taken where nobody can tell
+BONDS_PER_PARTICLE = 6.0
+# peak resident memory, measured with Python 3.11, numpy 2.4, numba 0.68: interpreter and libraries, and what compiling
+# adds; then of grains of 361 to 17 700 primaries, most of it the linear system of the time step's limit
+LOADED_BYTES, COMPILER_BYTES = 205e6, 180e6
+PARTICLE_BYTES, BOND_BYTES = 600.0, 2800.0
+STAND_INS = 2
+"""Particles that stand for a packing in the sample."""
+MANY_STEPS = 1e9
+LONG_SECONDS = 2 * 86400.0
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What a run will cost; None where only packing can tell.
+
+    Attributes
+    ----------
+    particles : int
+    bonds : Estimate or None
+    memory : float
+        Peak in bytes, of a scene whose step loop is compiled already and without what draws afterwards.
+    time_step : float
+        In s.
+    steps : int
+    seconds : float
+        Wall-clock time of the steps on one core.
+    notes : tuple of str
+        Where the numbers come from.
+    concerns : tuple of str
+        What will probably keep the run from ending, and what to do.
+    """
+
+    particles: int
+    bonds: Estimate | None
+    memory: float
+    time_step: float
+    steps: int
+    seconds: float
+    notes: tuple[str, ...] = ()
+    concerns: tuple[str, ...] = ()
+
+    def text(self) -> str:
+        """Forecast as lines to print."""
+        rows = [
+            ("particles", f"{self.particles:,}"),
+            ("bonds", _bonds_text(self.bonds, self.particles)),
+            ("memory", f"about {self.memory / 1e6:,.0f} MB, {COMPILER_BYTES / 1e6:.0f} MB more while compiling"),
+            ("time step", f"{self.time_step:.3g} s"),
+            ("steps", count_text(self.steps)),
+            ("time", f"about {duration(max(self.seconds, 1.0))} on one core, half a minute more with compiling"),
+        ]
+        lines = [f"{name:10} {value}" for name, value in rows]
+        return "\n".join([*lines, "a new kind of scene is compiled when it first runs", *self.notes, *self.concerns])
+
+
+def forecast(config: SceneConfig) -> Forecast:
+    """Predict counts, memory, time step, steps and run time of a scene.
+
+    Raises
+    ------
+    ConfigError
+        What would keep the scene from starting, as far as it shows without packing.
+    """
+    told = [_predicted(config, chosen) for chosen in config.generators]
+    packed = [each for each in told if each is not None]
+    sample = _sample(config, told)
+    (check_contacts if packed else check_start)(sample)
+    step = _time_step(sample)
+    steps = Gauge(config).last_step(step)
+    particles = len(sample.radius) + sum(each.particles - STAND_INS for each in packed)
+    bonds = _bonds(sample, told)
+    count = BONDS_PER_PARTICLE * particles if bonds is None else bonds.value
+    seconds = run_seconds(config, particles, count, steps)
+    memory = LOADED_BYTES + PARTICLE_BYTES * particles + BOND_BYTES * count
+    by_rule = packed and isinstance(config.time.step, StepRule)
+    return Forecast(
+        particles=particles,
+        bonds=bonds,
+        memory=memory,
+        time_step=step,
+        steps=steps,
+        seconds=seconds,
+        notes=("time step from the rule for touching primaries; exactly: clast check --build",) if by_rule else (),
+        concerns=(*time_concerns(config, steps, seconds), *_memory_concerns(config, memory)),
+    )
+
+
+def run_seconds(config: SceneConfig, particles: float, bonds: float, steps: int) -> float:
+    """Return about how long the steps of a scene take on one core, in s."""
+    pairs = PAIRS_PER_PARTICLE * particles if config.contacts is not None else 0.0
+    return steps * (PARTICLE_SECONDS * particles + BOND_SECONDS * bonds + PAIR_SECONDS * pairs)
+
+
+def time_concerns(config: SceneConfig, steps: int, seconds: float) -> list[str]:
+    """Return a line for the user where a run is absurdly long."""
+    if steps <= MANY_STEPS and seconds <= LONG_SECONDS:
+        return []
+    return [
+        f"{config.document.where(('time',))}: time: {count_text(steps)} steps, about {duration(seconds)} on one core; "
+        "take a larger time.step (time.mass_scaling raises its limit), end earlier, or move walls faster"
+    ]
+
+
+def _memory_concerns(config: SceneConfig, memory: float) -> list[str]:
+    there = float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
+    if memory <= there:
+        return []
+    return [
+        f"{config.document.where(('particles',))}: particles: about {memory / 1e6:,.0f} MB of memory are needed, "
+        f"this machine has {there / 1e6:,.0f} MB; take fewer particles"
+    ]
+
+
+def _bonded_gaps(config: SceneConfig) -> Gaps | None:
+    between = config.bonds.between if config.bonds is not None else None
+    if between is None:
+        return None
+    return Gaps(-math.inf if between.min_gap is None else between.min_gap, between.max_gap)
+
+
+def _predicted(config: SceneConfig, chosen: Chosen) -> Prediction | None:
+    """Return what a generator says it will make; None for one that makes it at once."""
+    if chosen.part.predict is None:
+        return None
+    with config.placing(config.path_of(chosen)):
+        told: Prediction = chosen.part.predict(chosen.params, config.folder, _bonded_gaps(config))
+    return told
+
+
+def _sample(config: SceneConfig, told: list[Prediction | None]) -> Scene:
+    gaps = _bonded_gaps(config)
+    packings = [
+        generated(config, chosen) if prediction is None else _two_neighbours(prediction, gaps)
+        for chosen, prediction in zip(config.generators, told, strict=True)
+    ]
+    return join(config, list(zip(config.generators, packings, strict=True)))
+
+
+def _two_neighbours(told: Prediction, gaps: Gaps | None) -> Packing:
+    """Return two particles that touch, or are as near as the scene bonds them."""
+    gap = 0.5 * (gaps.least + gaps.most) if gaps is not None and gaps.least > 0.0 else 0.0
+    return Packing(
+        position=np.array([[0.0, 0.0, 0.0], [2.0 * told.radius + gap, 0.0, 0.0]]),
+        radius=np.full(2, told.radius),
+        material=[told.material] * 2,
+        velocity=np.zeros((2, 3)),
+        spin=np.zeros((2, 3)),
+        prescribed=np.zeros(2, np.bool_),
+        grain=np.zeros(2, np.int64),
+    )
+
+
+def _bonds(sample: Scene, told: list[Prediction | None]) -> Estimate | None:
+    """Return the bonds of what is written, counted, and of what will be packed, estimated."""
+    if sample.config.bonds is None:
+        return Estimate(0.0)
+    first = [origin.first for origin in sample.origins]
+    owner = np.searchsorted(first, sample.ends[:, 0], side="right") - 1
+    written = np.array([each is None for each in told])
+    estimates = [Estimate(float(np.count_nonzero(written[owner])))]
+    for each in told:
+        if each is not None:
+            if each.bonds is None:
+                return None
+            estimates.append(each.bonds)
+    total = sum(each.value for each in estimates)
+    return Estimate(total, sum(each.value * each.band for each in estimates) / max(total, 1.0))
+
+
+def _time_step(sample: Scene) -> float:
+    """Return the step a scene asks for.
+
+    Raises
+    ------
+    ConfigError
+        Two neighbours alone are unstable with it, and so is every scene they are in.
+    """
+    config = sample.config
+    step = asked_step(config, min(rayleigh_limit(sample), bond_limit(sample)))
+    damping = config.integrator.part.damping_factor(config.bonds.damping if config.bonds is not None else 0.0)
+    most = min(pair_limit(sample) * damping, 10.0 * contact_limit(sample))
+    if step > most and not config.time.allow_unstable:
+        raise config.problem(
+            ("time", "step"),
+            f"{step:.4g} s is above {most:.4g} s, with which two neighbours alone are unstable; take a smaller step, "
+            "raise time.mass_scaling, or set time.allow_unstable",
+        )
+    return step
+
+
+def _bonds_text(bonds: Estimate | None, particles: int) -> str:
+    if bonds is None:
+        return "known after packing: clast check --build"
+    if bonds.band == 0.0:
+        return f"{bonds.value:,.0f}"
+    digits = -max(int(math.log10(max(bonds.value, 1.0))) - 2, 0)
+    return f"about {round(bonds.value, digits):,.0f} (±{bonds.band:.0%}), {2 * bonds.value / particles:.1f} a particle"
+
+
+def count_text(count: int) -> str:
+    """Return a count as a user reads it.
+
+    >>> count_text(113542), count_text(3 * 10**11)
+    ('113,542', '3e+11')
+    """
+    return f"{count:,}" if count < 1e10 else f"{count:.3g}"
+
+
+def duration(seconds: float) -> str:
+    """Return a time span in words.
+
+    >>> duration(5), duration(200), duration(8000), duration(3e6), duration(1e10)
+    ('5 s', '3 min 20 s', '2 h 13 min', '35 days', '317 years')
+    """
+    s = round(seconds)
+    if s < 60:
+        return f"{s} s"
+    if s < 3600:
+        return f"{s // 60} min {s % 60} s"
+    if s < 2 * 86400:
+        return f"{s // 3600} h {s % 3600 // 60} min"
+    days = s / 86400
+    return f"{days:.0f} days" if days < 1000 else f"{days / 365.25:,.0f} years"

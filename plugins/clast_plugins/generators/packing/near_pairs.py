@@ -1,0 +1,73 @@
+"""How many spheres of a random packing lie near each other, told without packing.
+
+In a random pattern of points, a sphere of diameter 1 at packing fraction φ has 8 φ (1 + g)³ others within a gap g.
+Pushing overlapping spheres apart moves the nearest ones to where they just touch and thins out the shell behind them:
+``FACTOR`` is what then becomes of that number in the bulk. At the surface of the body there are no others outside,
+which takes a share proportional to the surface per volume.
+
+The numbers were fitted to 260 packings made by :func:`relax`, of 5 to 4600 spheres in whole and flattened balls, φ from
+0.09 to 0.65: of 2600 counts, 99 % lie within the band told. Spheres that all but touch are another matter: how many do
+depends on how far a packing was settled, so nothing is told for gaps below a twentieth of a diameter.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from clast.parts.generator import Estimate, Gaps
+
+FRACTIONS = (0.1, 0.35, 0.6)
+GAPS = (0.05, 0.2, 0.5, 0.75, 1.0)
+FACTOR = (
+    (0.71, 1.16, 1.14, 1.16, 1.18),
+    (1.12, 1.15, 1.07, 1.06, 1.14),
+    (1.30, 1.14, 0.85, 0.89, 1.06),
+)
+"""By packing fraction (rows) and gap in diameters (columns)."""
+SURFACE, SURFACE_PER_GAP = 0.44, 1.42
+BAND = 0.04
+"""Where the rule itself is right to, as a share; the scatter of the count comes on top."""
+
+
+def near_pairs(count: int, volume: float, surface: float, gaps: Gaps) -> Estimate | None:
+    """Return about how many pairs of a packing have a gap within bounds.
+
+    Parameters
+    ----------
+    count : int
+        Number of spheres.
+    volume, surface : float
+        Of the body they fill, in diameters³ and diameters².
+    gaps : Gaps
+        In diameters.
+
+    Returns
+    -------
+    Estimate or None
+        None where the rule does not reach: a bound of the gap between 0 and 0.05, or above 1.
+
+    Examples
+    --------
+    361 primaries of 0.25 mm in 2.16 mm with bonds up to half a primary long; packings have 2131 ± 15:
+
+    >>> D = 2.16 / 0.25
+    >>> told = near_pairs(361, math.pi / 6 * D**3, math.pi * D**2, Gaps(-math.inf, 0.5))
+    >>> round(told.value), round(told.band, 2)
+    (2094, 0.08)
+    """
+    if not GAPS[0] <= gaps.most <= GAPS[-1] or 0.0 < gaps.least < GAPS[0]:
+        return None
+    pairs = _up_to(count, volume, surface, gaps.most)
+    if gaps.least > 0.0:
+        pairs -= _up_to(count, volume, surface, gaps.least)
+    return Estimate(pairs, BAND + 2.0 / math.sqrt(max(pairs, 1.0)))
+
+
+def _up_to(count: int, volume: float, surface: float, gap: float) -> float:
+    fraction = count * math.pi / 6.0 / volume
+    factor = float(np.interp(fraction, FRACTIONS, [np.interp(gap, GAPS, row) for row in FACTOR]))
+    inside = 1.0 - (SURFACE + SURFACE_PER_GAP * gap) * surface / (6.0 * volume)
+    neighbours = 8.0 * fraction * (1.0 + gap) ** 3 * factor * inside
+    return 0.5 * count * min(neighbours, count - 1.0)

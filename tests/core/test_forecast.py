@@ -1,0 +1,177 @@
+"""What a run will cost, told without packing: right within what is said, where packing or running can tell."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from clast import load
+from clast.config.scene import SceneConfig
+from clast.engine.time_step import choose_step, limits, pair_limit
+from clast.errors import ConfigError
+from clast.forecast import COMPILER_BYTES, forecast, time_concerns
+from clast.scene.plan import blueprint
+from clast.scene.scene import build_scene
+from tests.scenes import COLLISION, CRUSH, write
+
+CONFIGS = Path(__file__).parents[2] / "configs"
+GRAIN = "paper/fig09_model1.yaml"
+CUT = "crush_grain.yaml"
+
+
+@pytest.mark.parametrize(
+    ("config", "changes"),
+    [
+        (CUT, {}),
+        (GRAIN, {}),
+        (GRAIN, {"particles.seed": 7}),
+        (GRAIN, {"particles.porosity": 0.6}),
+        (GRAIN, {"particles.porosity": 0.75}),
+        (GRAIN, {"particles.primary_diameter": "0.18 mm"}),
+        (GRAIN, {"particles.primary_diameter": "0.5 mm", "particles.porosity": 0.5, "bonds.between.max_gap": "0.2 mm"}),
+        (GRAIN, {"bonds.between.max_gap": "0.0125 mm"}),
+        (GRAIN, {"bonds.between.max_gap": "0.07 mm"}),
+        (GRAIN, {"bonds.between.max_gap": "0.25 mm"}),
+        (GRAIN, {"bonds.between.min_gap": "0.05 mm"}),
+        (GRAIN, {"bonds.between.min_gap": "-0.01 mm"}),
+        (
+            CUT,
+            {
+                "particles.height": "1 mm",
+                "particles.porosity": 0.75,
+                "walls.upper.point": [0, 0, 1],
+                "walls.lower.point": [0, 0, -1],
+            },
+        ),
+    ],
+)
+def test_as_many_bonds_are_made_as_were_told(config: str, changes: dict[str, Any]) -> None:
+    scene = load(CONFIGS / config).changed(changes)
+    told = forecast(scene)
+    built = build_scene(scene)
+    assert told.particles == len(built.radius)
+    assert told.bonds is not None
+    assert 0.04 < told.bonds.band < 0.25
+    assert len(built.ends) == pytest.approx(told.bonds.value, rel=told.bonds.band)
+
+
+def test_the_rule_s_time_step_is_that_of_two_touching_primaries() -> None:
+    scene = load(CONFIGS / CUT)
+    built = build_scene(scene)
+    exact = choose_step(built, limits(built, blueprint(built)))
+    told = forecast(scene)
+    assert told.time_step == pytest.approx(exact, rel=1e-3)
+    assert "clast check --build" in told.text()
+
+
+def test_the_limit_of_a_pair_is_never_below_that_of_the_network() -> None:
+    for config in (CUT, GRAIN):
+        built = build_scene(load(CONFIGS / config))
+        assert limits(built, blueprint(built)).network <= pair_limit(built)
+
+
+def test_what_is_written_down_is_counted_and_not_estimated(tmp_path: Path) -> None:
+    scene = load(write(tmp_path, COLLISION)).changed(
+        {
+            "bonds.between.max_gap": "2 um",
+            "bonds.model": {
+                "type": "elastic",
+                "young_modulus": "1 MPa",
+                "poisson_ratio": 0.2,
+                "normal_strength": "1 MPa",
+                "shear_strength": "1 MPa",
+            },
+        }
+    )
+    told = forecast(scene)
+    assert (told.particles, told.bonds) == (2, (1.0, 0.0))
+    assert re.search(r"^bonds +1$", told.text(), re.MULTILINE)
+    assert told.steps == 4000
+    assert told.notes == ()
+
+
+def test_without_a_bonds_section_there_are_no_bonds() -> None:
+    data = {key: value for key, value in load(CONFIGS / GRAIN).document.data.items() if key != "bonds"}
+    from clast.config.scene import from_mapping
+
+    assert forecast(from_mapping(data)).bonds == (0.0, 0.0)
+
+
+def test_bonds_of_spheres_that_all_but_touch_are_known_only_after_packing() -> None:
+    told = forecast(load(CONFIGS / GRAIN).changed({"bonds.between.max_gap": "1 um"}))
+    assert told.bonds is None
+    assert "known after packing" in told.text()
+
+
+def test_a_step_above_the_limit_of_two_neighbours_is_refused_before_anything_is_packed() -> None:
+    with pytest.raises(ConfigError, match=r"time\.step: 0\.0001 s is above .* two neighbours alone are unstable"):
+        forecast(load(CONFIGS / GRAIN).changed({"time.step": "0.1 ms"}))
+    assert forecast(load(CONFIGS / GRAIN).changed({"time.step": "0.1 ms", "time.allow_unstable": True})).steps == 540
+
+
+def test_a_run_of_days_or_of_absurdly_many_steps_is_pointed_out() -> None:
+    scene = load(CONFIGS / GRAIN)
+    assert forecast(scene).concerns == ()
+    (concern,) = forecast(scene.changed({"time.step": "1e-11 s"})).concerns
+    assert re.search(r"fig09_model1\.yaml:54:1: time: 5,400,000,000 steps, about \d+ days on one core; take a", concern)
+    assert time_concerns(scene, steps=10**6, seconds=3 * 86400.0) != []
+    with pytest.raises(ConfigError, match=r"time\.end: 5\.4e\+16 steps of 1e-18 s, more than 1e\+12; end earlier"):
+        forecast(scene.changed({"time.step": "1e-18 s"}))
+
+
+def test_more_memory_than_the_machine_has_is_pointed_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sysconf", {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 50_000}.get)
+    (concern,) = forecast(load(CONFIGS / GRAIN)).concerns
+    assert concern.endswith(
+        "particles: about 211 MB of memory are needed, this machine has 205 MB; take fewer particles"
+    )
+
+
+def _peak(scene: Path, folder: Path) -> tuple[bool, float]:
+    """Run a scene in a process of its own; return whether it compiled, and its peak memory in bytes."""
+    command = [sys.executable, "-c", "from clast.cli import main; main()", "run", str(scene), "-o", str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return "compiling" in done.stdout, 1e6 * json.loads((folder / "summary.json").read_text())["memory_MB"]
+
+
+@pytest.mark.parametrize("diameter", ["1.2 mm", "5 mm"])
+def test_a_run_needs_about_the_memory_that_was_told(tmp_path: Path, diameter: str) -> None:
+    text = CRUSH.replace("diameter: 1.2 mm\n  primary", f"diameter: {diameter}\n  primary")
+    text = text.replace("primaries: 55", "porosity: 0.5").replace("end: {strain: 0.3}", "end: {steps: 5}")
+    scene = write(tmp_path, text.replace("0.6 mm]", "2.5 mm]"))
+    told = forecast(load(scene)).memory
+    compiled, peak = _peak(scene, tmp_path / "first")
+    if compiled:
+        assert told < peak < 1.3 * (told + COMPILER_BYTES)
+        compiled, peak = _peak(scene, tmp_path / "second")
+    assert not compiled
+    assert peak == pytest.approx(told, rel=0.25)
+
+
+def test_a_generator_of_one_s_own_needs_no_prediction(tmp_path: Path) -> None:
+    write(
+        tmp_path,
+        "from clast import hookimpl\n"
+        "from clast.parts.generator import Generator\n"
+        "from clast_plugins.generators.explicit import Explicit, generate\n"
+        "CLAST_API = 1\n"
+        "@hookimpl\n"
+        "def clast_register(registry):\n"
+        "    registry.generator('mine', Generator('the same again', Explicit, generate))\n",
+        "mine.py",
+    )
+    text = "plugins: [mine.py]\n" + COLLISION.replace("type: explicit", "type: mine")
+    assert forecast(load(write(tmp_path, text))).particles == 2
+
+
+def test_a_scene_that_cannot_start_is_refused_as_far_as_it_shows(tmp_path: Path) -> None:
+    scene: SceneConfig = load(write(tmp_path, COLLISION))
+    with pytest.raises(ConfigError, match=r"particles\.particles\.1: particle 1 overlaps particle 0"):
+        forecast(scene.changed({"particles.particles.1.position": ["0.5 mm", 0, 0]}))
