@@ -148,7 +148,9 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
     if plan.contacts is not None and plan.contacts.between_particles:
         search = scene.config.neighbours.search.part
         slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt)
-        pairs = find_pairs(world.particles, world.bonds, empty_pairs(plan.history), search, slack)
+        pairs = find_pairs(
+            world.particles, world.chunks, world.bonds, empty_pairs(world.chunks, plan.history), search, slack
+        )
         count = len(pairs.first)
         if count:
             size = sum(a.nbytes for a in pairs) / count

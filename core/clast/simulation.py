@@ -9,6 +9,7 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.engine.assemble import Kernel, assemble
+from clast.engine.crew import Crew
 from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, STALE, STEP, V, X
 from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.rehearsal import readable_errors, try_laws
@@ -45,6 +46,8 @@ class Simulation:
         Limits of the time step.
     dt : float
         Time step in s.
+    crew : Crew
+        The threads that share the steps; the results do not depend on their number.
     world : World
         State of everything; its neighbour lists are replaced when they go stale.
     gauge : Gauge
@@ -57,7 +60,7 @@ class Simulation:
         How often neighbour lists were made.
     """
 
-    def __init__(self, config: SceneConfig) -> None:
+    def __init__(self, config: SceneConfig, threads: int = 1) -> None:
         self.config = config
         self.scene: Scene = build_scene(config)
         check_start(self.scene)
@@ -70,6 +73,7 @@ class Simulation:
         try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
+        self.crew = Crew(threads, len(self.world.chunks) - 1)
         self.removed = 0
         self.rebuilds = 0
         self.renew_lists()
@@ -89,7 +93,7 @@ class Simulation:
     @property
     def bonds_broken(self) -> int:
         """Number of bonds that broke."""
-        return int(self.world.cracks.filled[0])
+        return int(self.world.cracks.filled.sum())
 
     @property
     def bonds_intact(self) -> int:
@@ -126,7 +130,7 @@ class Simulation:
 
     def _advance(self, step: int) -> int:
         with readable_errors(self.plan):
-            return self.kernel.advance(self.world, step)
+            return self.crew.advance(self.kernel.advance, self.world, step, self.step)
 
     def renew_lists(self) -> None:
         """Search for neighbours at the present positions."""
@@ -136,7 +140,7 @@ class Simulation:
         if self.plan.contacts is not None:
             search = self.config.neighbours.search.part
             if self.plan.contacts.between_particles:
-                pairs = find_pairs(particles, world.bonds, world.pairs, search, slack)
+                pairs = find_pairs(particles, world.chunks, world.bonds, world.pairs, search, slack)
                 world = world._replace(pairs=pairs)
             if self.plan.walls:
                 walls, near_walls = world.walls, self.kernel.near_walls

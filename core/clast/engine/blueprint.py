@@ -59,7 +59,10 @@ class ContactPlan:
 
 @dataclass(frozen=True)
 class Blueprint:
-    """Everything the assembler needs to know; run-time numbers are not part of it."""
+    """Everything the assembler needs to know; run-time numbers are not part of it.
+
+    ``chunked`` is whether the scene is cut into chunks that threads can share.
+    """
 
     integrator: Integrator
     bonds: BondPlan | None = None
@@ -67,6 +70,7 @@ class Blueprint:
     walls: tuple[Wall, ...] = ()
     motions: tuple[Motion, ...] = ()
     body_forces: tuple[BodyForce, ...] = ()
+    chunked: bool = False
 
     @property
     def orientation(self) -> bool:

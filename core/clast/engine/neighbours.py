@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.kernels.layout import INTACT, INVERSE_MASS, RADIUS, V, X
-from clast.engine.state import Bonds, Floats, Integers, Pairs, Particles, WallPairs, Walls
+from clast.engine.chunks import shared_out
+from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, V, X
+from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import slot_view
 from clast.parts.neighbour_search import NeighbourSearch
 
@@ -35,7 +36,9 @@ def choose_slack(particles: Particles, skin: Skin, dt: float) -> Floats:
     return np.asarray(np.clip(way, skin.least, skin.most))
 
 
-def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: NeighbourSearch, slack: Floats) -> Pairs:
+def find_pairs(
+    particles: Particles, chunks: Indices, bonds: Bonds, old: Pairs, search: NeighbourSearch, slack: Floats
+) -> Pairs:
     """Return all pairs that can come to touch while each moves by its slack, with the history of those known.
 
     Pairs of two prescribed particles, and particles that left, are left out: nothing could move them.
@@ -46,15 +49,20 @@ def find_pairs(particles: Particles, bonds: Bonds, old: Pairs, search: Neighbour
     found = here[search.find_pairs(position, reach).astype(np.int64)].reshape(-1, 2)
     movable = particles.body[:, INVERSE_MASS] > 0.0
     found = found[movable[found].any(axis=1)]
-    before, now = key(old.first, old.second), key(found[:, 0], found[:, 1])
-    touching, history, rest = carried(before, now, old.touching, old.history, old.rest)
+    rows, sides, begin = shared_out(chunks, found)
+    found = found[rows]
+    kept = np.nonzero(old.sides & FIRST)[0]
+    before, now = key(old.first[kept], old.second[kept]), key(found[:, 0], found[:, 1])
+    touching, history, rest = carried(before, now, old.touching[kept], old.history[kept], old.rest[kept])
     return Pairs(
         found[:, 0].astype(np.uint32),
         found[:, 1].astype(np.uint32),
-        bond_places(bonds, found),
+        sides,
+        bond_places(bonds, found, begin),
         rest,
         touching,
         history,
+        begin,
     )
 
 
@@ -76,7 +84,7 @@ def key(first: NDArray[Any], second: NDArray[Any]) -> Integers:
 
 
 def carried(old_key: Integers, new_key: Integers, *old: NDArray[Any]) -> list[NDArray[Any]]:
-    """Return tables for the new pairs, with the rows of those that were known; both keys rise."""
+    """Return tables for the new pairs, with the rows of those that were known; the old keys rise."""
     new = [np.zeros((len(new_key), *table.shape[1:]), table.dtype) for table in old]
     if len(old_key) > 0:
         at = np.minimum(np.searchsorted(old_key, new_key), len(old_key) - 1)
@@ -86,18 +94,28 @@ def carried(old_key: Integers, new_key: Integers, *old: NDArray[Any]) -> list[ND
     return new
 
 
-def bond_places(bonds: Bonds, pairs: Integers) -> Integers:
-    """Return where each pair's bond stands in the bond table, −1 for pairs without an intact bond."""
+def bond_places(bonds: Bonds, pairs: Integers, begin: Indices) -> Integers:
+    """Return where each pair's bond stands in its chunk's part of the bond table, −1 for pairs without one."""
+    holds = slot_view(bonds, INTACT) > 0.0
+    return np.concatenate(
+        [
+            _places(bonds, holds, slice(*bonds.begin[c : c + 2]), pairs[slice(*begin[c : c + 2])])
+            for c in range(len(begin) - 1)
+        ]
+    )
+
+
+def _places(bonds: Bonds, holds: NDArray[np.bool_], blocks: slice, pairs: Integers) -> Integers:
     place = np.full(len(pairs), -1, np.int64)
-    if len(bonds.first) == 0 or len(pairs) == 0:
+    standing = int(blocks.start) * LANES + np.nonzero(holds[blocks].ravel())[0]
+    if len(standing) == 0 or len(pairs) == 0:
         return place
-    standing = np.nonzero(slot_view(bonds, INTACT).ravel() > 0.0)[0]
     i, j = bonds.first.ravel()[standing], bonds.second.ravel()[standing]
     bond_key = key(np.minimum(i, j), np.maximum(i, j))
     order = np.argsort(bond_key, kind="stable")
     wanted = key(pairs[:, 0], pairs[:, 1])
     at = np.minimum(np.searchsorted(bond_key[order], wanted), len(order) - 1)
-    known = bond_key[order][at] == wanted if len(order) else np.zeros(len(pairs), bool)
+    known = bond_key[order][at] == wanted
     place[known] = standing[order[at[known]]]
     return place
 

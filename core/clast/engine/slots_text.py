@@ -62,6 +62,7 @@ def bond_offsets(plan: BondPlan) -> dict[str, int]:
 def _flags(plan: Blueprint) -> str:
     bonds, contacts = plan.bonds, plan.contacts
     values = {
+        "CHUNKED": plan.chunked,
         "BONDS": bonds is not None,
         "BOND_ORIENTATION": plan.orientation,
         "BOND_VELOCITY": plan.bond_velocity,

@@ -32,27 +32,36 @@ class Particles(NamedTuple):
 
 
 class Bonds(NamedTuple):
-    """Bonds in blocks of lanes: ends (b, LANES), bond numbers (b, LANES), and ``data`` (b, slots * LANES)."""
+    """Bonds in blocks of lanes: ends (b, LANES), bond numbers (b, LANES), and ``data`` (b, slots * LANES).
 
-    first: Indices
-    second: Indices
-    number: Integers
-    data: Floats
-
-
-class Pairs(NamedTuple):
-    """Pairs of particles that may touch, in rising order.
-
-    ``bond`` is the place of the pair's bond in the bond table, −1 for none; ``rest`` the overlap in m up to which the
-    pair does not push; ``history`` (p, 3 + h) holds the last normal and what the contact law remembers.
+    ``sides`` (b, LANES) tells which ends a lane loads, none in lanes that only fill a block; ``begin`` (c + 1,) where
+    each chunk's blocks begin.
     """
 
     first: Indices
     second: Indices
+    number: Integers
+    sides: Bytes
+    data: Floats
+    begin: Indices
+
+
+class Pairs(NamedTuple):
+    """Pairs of particles that may touch, in rising order within each chunk.
+
+    ``sides`` tells which ends a row loads; ``begin`` (c + 1,) where each chunk's rows begin; ``bond`` is the place of
+    the pair's bond in the bond table, −1 for none; ``rest`` the overlap in m up to which the pair does not push;
+    ``history`` (p, 3 + h) holds the last normal and what the contact law remembers.
+    """
+
+    first: Indices
+    second: Indices
+    sides: Bytes
     bond: Integers
     rest: Floats
     touching: Bytes
     history: Floats
+    begin: Indices
 
 
 class WallPairs(NamedTuple):
@@ -82,8 +91,12 @@ class Walls(NamedTuple):
 
 
 class Cracks(NamedTuple):
-    """Crack table: one row a broken bond, in the order of breaking; ``filled[0]`` rows are in use."""
+    """Crack table: one row a broken bond, in the order of breaking within each chunk.
 
+    Chunk c has room from row ``begin[c]`` on, of which ``filled[c]`` rows are in use.
+    """
+
+    begin: Integers
     filled: Integers
     step: Integers
     bond: Integers
@@ -107,8 +120,20 @@ class Numbers(NamedTuple):
     fade: float  # share of its load that a breaking bond loses each step
 
 
+class Team(NamedTuple):
+    """One of the threads that share a step loop: its number, how many there are, and where they wait."""
+
+    rank: int
+    size: int
+    barrier: Integers
+
+
 class World(NamedTuple):
-    """Everything the step loop reads and writes."""
+    """Everything the step loop reads and writes.
+
+    ``chunks`` (c + 1,) are the particle numbers where chunks begin, ``stale`` (c + 1,) tells of each chunk, and last
+    of the walls, whether something is too far from where neighbours were searched; ``scratch`` has a row a chunk.
+    """
 
     particles: Particles
     bonds: Bonds
@@ -118,4 +143,6 @@ class World(NamedTuple):
     cracks: Cracks
     numbers: Numbers
     clock: Integers
+    chunks: Indices
+    stale: Bytes
     scratch: Floats

@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.blueprint import BondPlan
+from clast.engine.chunks import shared_out
 from clast.engine.kernels.layout import (
+    FIRST,
     INDEX,
     INTACT,
     INVERSE_INERTIA,
@@ -23,7 +25,7 @@ from clast.engine.kernels.layout import (
 )
 from clast.engine.records import columns, width
 from clast.engine.slots_text import bond_offsets
-from clast.engine.state import Bonds, Cracks, Floats, Integers, Pairs, Particles, WallPairs
+from clast.engine.state import Bonds, Bytes, Cracks, Floats, Indices, Integers, Pairs, Particles, WallPairs
 
 
 def particle_tables(
@@ -62,12 +64,16 @@ def particle_tables(
     )
 
 
-def bond_table(plan: BondPlan, ends: Integers, reference: Any, constants: Any, start: Any, damping: Floats) -> Bonds:
-    """Return the blocked table of m bonds, ordered by their ends.
+def bond_table(
+    plan: BondPlan, chunks: Indices, ends: Integers, reference: Any, constants: Any, start: Any, damping: Floats
+) -> Bonds:
+    """Return the blocked table of m bonds, chunk after chunk and ordered by their ends.
 
     Parameters
     ----------
     plan : BondPlan
+    chunks : (c + 1,) uint32
+        Particle numbers where chunks begin.
     ends : (m, 2) int64
     reference, constants, start : records of numbers or (m, ...) arrays
         Undeformed bond, constants of the law, start of the kinematics (None when it has no state).
@@ -76,9 +82,7 @@ def bond_table(plan: BondPlan, ends: Integers, reference: Any, constants: Any, s
     """
     m = len(ends)
     at = bond_offsets(plan)
-    blocks = -(-m // LANES)
-    order = np.lexsort((ends.max(axis=1), ends.min(axis=1)))
-    lanes = np.concatenate([order, np.full(blocks * LANES - m, order[-1])])
+    lanes, sides, begin = _lanes(chunks, ends)
     values = np.zeros((m, at["end"]))
     values[:, INTACT] = 1.0
     _put(values, at["reference"], columns(reference, m))
@@ -87,22 +91,38 @@ def bond_table(plan: BondPlan, ends: Integers, reference: Any, constants: Any, s
         _put(values, at["damping"], damping)
     if start is not None:
         _put(values, at["kinematic_state"], columns(start, m))
-    data = values[lanes].reshape(blocks, LANES, -1).transpose(0, 2, 1)
-    data = np.ascontiguousarray(data)
-    data[-1, INTACT, LANES - (blocks * LANES - m) :] = 0.0
-    first = ends[lanes, 0].astype(np.uint32).reshape(blocks, LANES)
-    second = ends[lanes, 1].astype(np.uint32).reshape(blocks, LANES)
-    return Bonds(first, second, lanes.reshape(blocks, LANES), data.reshape(blocks, -1))
+    data = np.ascontiguousarray(values[lanes].transpose(0, 2, 1))
+    data[:, INTACT][sides == 0] = 0.0
+    first, second = np.ascontiguousarray(ends[lanes].astype(np.uint32).transpose(2, 0, 1))
+    return Bonds(first, second, lanes, sides, data.reshape(len(lanes), -1), begin)
+
+
+def _lanes(chunks: Indices, ends: Integers) -> tuple[Integers, Bytes, Indices]:
+    """Return the bond of every lane and the ends it loads, (b, LANES), and where each chunk's blocks begin.
+
+    Each chunk fills whole blocks; lanes without a bond of their own repeat one and load nothing.
+    """
+    order = np.lexsort((ends.max(axis=1), ends.min(axis=1)))
+    rows, row_sides, row_begin = shared_out(chunks, ends[order])
+    counts = np.diff(row_begin.astype(np.int64))
+    begin = np.concatenate([[0], np.cumsum(-(-counts // LANES))])
+    places = np.arange(len(rows)) + np.repeat(begin[:-1] * LANES - row_begin[:-1], counts)
+    lanes, sides = np.zeros(begin[-1] * LANES, np.int64), np.zeros(begin[-1] * LANES, np.uint8)
+    lanes[places], sides[places] = order[rows], row_sides
+    lanes[sides == 0] = order[-1]
+    return lanes.reshape(-1, LANES), sides.reshape(-1, LANES), begin.astype(np.uint32)
 
 
 def _put(table: Floats, first: int, block: Floats) -> None:
     table[:, first : first + block.shape[1]] = block
 
 
-def no_bonds() -> Bonds:
+def no_bonds(chunks: Indices) -> Bonds:
     """Return an empty bond table."""
     ends = np.zeros((0, LANES), np.uint32)
-    return Bonds(ends, ends.copy(), np.zeros((0, LANES), np.int64), np.zeros((0, 2 * LANES)))
+    sides = np.zeros((0, LANES), np.uint8)
+    nothing = np.zeros((0, 2 * LANES))
+    return Bonds(ends, ends.copy(), np.zeros((0, LANES), np.int64), sides, nothing, np.zeros_like(chunks))
 
 
 def slot_view(bonds: Bonds, slot: int) -> Floats:
@@ -112,7 +132,7 @@ def slot_view(bonds: Bonds, slot: int) -> Floats:
 
 def bond_slot(bonds: Bonds, slot: int) -> Floats:
     """Return one slot of all bonds as (m,) float64, by bond number."""
-    real = _real_lanes(bonds)
+    real = np.nonzero(bonds.sides.ravel() & FIRST)[0]  # the copy in the first end's chunk stands for the bond
     values = slot_view(bonds, slot).ravel()
     result = np.zeros(len(real))
     result[bonds.number.ravel()[real]] = values[real]
@@ -129,18 +149,20 @@ def failure_index(bonds: Bonds) -> Floats:
     return bond_slot(bonds, INDEX)
 
 
-def _real_lanes(bonds: Bonds) -> Integers:
-    """Return the places of real bonds; padding lanes repeat the last one."""
-    number = bonds.number.ravel()
-    m = 0 if len(number) == 0 else int(number.max()) + 1
-    return np.arange(m)
-
-
-def empty_pairs(history: type | None) -> Pairs:
+def empty_pairs(chunks: Indices, history: type | None) -> Pairs:
     """Return an empty list of pairs."""
-    none = np.zeros(0, np.uint32)
+    none, flags = np.zeros(0, np.uint32), np.zeros(0, np.uint8)
     row = 3 + width(history) if history else 0
-    return Pairs(none, none.copy(), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.uint8), np.zeros((0, row)))
+    return Pairs(
+        none,
+        none.copy(),
+        flags,
+        np.zeros(0, np.int64),
+        np.zeros(0),
+        flags.copy(),
+        np.zeros((0, row)),
+        np.zeros_like(chunks),
+    )
 
 
 def empty_wall_pairs(history: type | None) -> WallPairs:
@@ -150,10 +172,13 @@ def empty_wall_pairs(history: type | None) -> WallPairs:
     return WallPairs(none, none.copy(), np.zeros(0, np.uint8), np.zeros((0, row)))
 
 
-def crack_table(bonds: int) -> Cracks:
-    """Return an empty crack table with room for every bond."""
+def crack_table(chunks: Indices, ends: Integers) -> Cracks:
+    """Return an empty crack table with room for every bond, in the chunk of its first end."""
+    bonds = len(ends)
+    begin = np.searchsorted(np.sort(ends[:, 0]), chunks)
     return Cracks(
-        np.zeros(1, np.int64),
+        begin,
+        np.zeros(len(chunks) - 1, np.int64),
         np.zeros(bonds, np.int64),
         np.zeros(bonds, np.int64),
         np.zeros((bonds, 2), np.int64),
@@ -161,3 +186,11 @@ def crack_table(bonds: int) -> Cracks:
         np.zeros(bonds, np.int64),
         np.zeros((bonds, 3)),
     )
+
+
+def crack_rows(cracks: Cracks) -> Integers:
+    """Return the rows of the crack table in use, in the order of breaking: by step, then by chunk."""
+    rows = np.concatenate(
+        [np.arange(begin, begin + filled) for begin, filled in zip(cracks.begin, cracks.filled, strict=False)]
+    )
+    return np.asarray(rows[np.argsort(cracks.step[rows], kind="stable")])

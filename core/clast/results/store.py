@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.engine.tables import crack_rows
 from clast.errors import RunError
 
 if TYPE_CHECKING:
@@ -123,18 +124,19 @@ class Store:
     def keep_cracks(self, simulation: Simulation) -> None:
         """Bring the crack table up to date."""
         cracks, scene = simulation.world.cracks, simulation.scene
-        count = int(cracks.filled[0])
-        area = 0.25 * np.pi * scene.diameter[cracks.bond[:count]] ** 2
+        rows = crack_rows(cracks)
+        count, bond = len(rows), cracks.bond[rows]
+        area = 0.25 * np.pi * scene.diameter[bond] ** 2
         columns: tuple[NDArray[Any], ...] = (
-            cracks.step[:count] * simulation.dt,
-            cracks.bond[:count],
-            cracks.ends[:count, 0],
-            cracks.ends[:count, 1],
-            cracks.position[:count],
-            cracks.mode[:count].astype(np.uint8),
-            cracks.load[:count, 0] / area,
-            cracks.load[:count, 1] / area,
-            cracks.load[:count, 2],
+            cracks.step[rows] * simulation.dt,
+            bond,
+            cracks.ends[rows, 0],
+            cracks.ends[rows, 1],
+            cracks.position[rows],
+            cracks.mode[rows].astype(np.uint8),
+            cracks.load[rows, 0] / area,
+            cracks.load[rows, 1] / area,
+            cracks.load[rows, 2],
         )
         try:
             table = self.file.require_group("cracks")

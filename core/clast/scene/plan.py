@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from clast.config.beside import WallChoice
 from clast.config.choice import Chosen
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
+from clast.engine.chunks import cut
 from clast.engine.kernels.layout import CONTACT_FREE, LANES
 from clast.engine.records import fields, numbers, width
-from clast.engine.state import Bonds, Floats, Numbers, Pairs, Walls, World
+from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Walls, World
 from clast.engine.tables import (
     bond_table,
     crack_table,
@@ -37,6 +38,7 @@ def blueprint(scene: Scene) -> Blueprint:
         walls=_distinct(wall.shape for wall in config.walls.values()),
         motions=_distinct(wall.motion for wall in config.walls.values() if wall.motion is not None),
         body_forces=tuple(chosen.part for chosen in config.body_forces),
+        chunked=len(cut(len(scene.radius), scene.ends)) > 2,
     )
 
 
@@ -119,7 +121,8 @@ def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
 
 def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
     """Return the tables of a scene at its start, neighbour lists still empty."""
-    bonds, uniforms = _bonds(scene, plan)
+    chunks = cut(len(scene.radius), scene.ends)
+    bonds, uniforms = _bonds(scene, plan, chunks)
     return World(
         particles=particle_tables(
             scene.position,
@@ -131,13 +134,15 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
             scene.prescribed,
         ),
         bonds=bonds,
-        pairs=empty_pairs(plan.history),
+        pairs=empty_pairs(chunks, plan.history),
         wall_pairs=empty_wall_pairs(plan.history),
         walls=_walls(scene, plan),
-        cracks=crack_table(len(scene.ends)),
+        cracks=crack_table(chunks, scene.ends),
         numbers=_numbers(scene, plan, uniforms, dt, skin),
         clock=np.zeros(4, np.int64),
-        scratch=np.zeros(_scratch_slots(plan) * LANES),
+        chunks=chunks,
+        stale=np.zeros(len(chunks), np.uint8),
+        scratch=np.zeros((len(chunks) - 1, _scratch_slots(plan) * LANES)),
     )
 
 
@@ -168,15 +173,16 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, dt: float, skin: f
     )
 
 
-def _bonds(scene: Scene, plan: Blueprint) -> tuple[Bonds, Floats]:
+def _bonds(scene: Scene, plan: Blueprint, chunks: Indices) -> tuple[Bonds, Floats]:
     config = scene.config.bonds
     if plan.bonds is None or config is None:
-        return no_bonds(), np.zeros(0)
+        return no_bonds(chunks), np.zeros(0)
     d, kinematics = scene.bond_vectors, plan.bonds.kinematics
     constants = config.model.part.constants(config.model.params, scene.bond_geometry)
     start = kinematics.start(d, scene.length) if kinematics.start is not None else None
     damping = damping_coefficients(scene) if plan.bonds.damping else np.zeros((len(d), 4))
-    table = bond_table(plan.bonds, scene.ends, kinematics.reference(d, scene.length), constants, start, damping)
+    reference = kinematics.reference(d, scene.length)
+    table = bond_table(plan.bonds, chunks, scene.ends, reference, constants, start, damping)
     shared = [
         np.ravel(v)
         for f, v in zip(fields(type(constants)), constants, strict=True)

@@ -20,10 +20,12 @@ from .layout import (
     BOND_V,
     BOND_WI,
     BOND_WJ,
+    FIRST,
     INDEX,
     INTACT,
     LANES,
     OVERLOAD,
+    SECOND,
     F,
     M,
     Q,
@@ -37,6 +39,7 @@ from .slots import (
     BOND_FLOW,
     BOND_ORIENTATION,
     BOND_VELOCITY,
+    CHUNKED,
     FADE,
     bond_end_loads,
     bond_energy,
@@ -153,6 +156,7 @@ def settle_events(scratch: Floats, data: Floats, lane: int, uniforms: tuple[floa
 @routine
 def log_crack(
     cracks: Cracks,
+    chunk: int,
     particles: Particles,
     i: int,
     j: int,
@@ -170,8 +174,8 @@ def log_crack(
     constants = read_constants(uniforms, data, lane)
     state = read_bond_state(data, lane)
     load = bond_load(strain, constants, state)
-    row = cracks.filled[0]
-    cracks.filled[0] = row + 1
+    row = cracks.begin[chunk] + cracks.filled[chunk]
+    cracks.filled[chunk] += 1
     cracks.step[row] = step
     cracks.bond[row] = bond
     cracks.ends[row, 0] = i
@@ -185,8 +189,8 @@ def log_crack(
 
 
 @inlined
-def scatter(particles: Particles, i: int, j: int, scratch: Floats, lane: int, share: float) -> None:
-    """Add a lane's loads to its ends."""
+def scatter(particles: Particles, i: int, j: int, sides: int, scratch: Floats, lane: int, share: float) -> None:
+    """Add a lane's loads to those of its ends that belong to the chunk."""
     load = particles.load
     for c in range(3):
         force = scratch[(BOND_F + c) * LANES + lane]
@@ -194,15 +198,18 @@ def scatter(particles: Particles, i: int, j: int, scratch: Floats, lane: int, sh
         moment_j = scratch[(BOND_MJ + c) * LANES + lane]
         if FADE:
             force, moment_i, moment_j = share * force, share * moment_i, share * moment_j
-        load[i, F + c] -= force
-        load[j, F + c] += force
-        load[i, M + c] += moment_i
-        load[j, M + c] += moment_j
+        if not CHUNKED or sides & FIRST:
+            load[i, F + c] -= force
+            load[i, M + c] += moment_i
+        if not CHUNKED or sides & SECOND:
+            load[j, F + c] += force
+            load[j, M + c] += moment_j
 
 
 @routine
 def sweep_bonds(
     bonds: Bonds,
+    chunk: int,
     particles: Particles,
     cracks: Cracks,
     numbers: Numbers,
@@ -210,10 +217,10 @@ def sweep_bonds(
     dt: float,
     step: int,
 ) -> None:
-    """Add the loads of all bonds to the particles; break what fails."""
+    """Add the loads of a chunk's bonds to its particles; break what fails."""
     uniforms = read_uniforms(numbers.bond_uniforms)
-    for b in range(len(bonds.first)):
-        first, second, data = bonds.first[b], bonds.second[b], bonds.data[b]
+    for b in range(bonds.begin[chunk], bonds.begin[chunk + 1]):
+        first, second, sides, data = bonds.first[b], bonds.second[b], bonds.sides[b], bonds.data[b]
         for lane in range(LANES):
             gather(particles, first[lane], second[lane], scratch, lane)
         for lane in range(LANES):
@@ -226,11 +233,11 @@ def sweep_bonds(
             if BOND_EVENTS and scratch[OVERLOAD * LANES + lane] > 1.0 and data[INDEX * LANES + lane] < 1.0:
                 settle_events(scratch, data, lane, uniforms, RandomKey(numbers.seed, bonds.number[b, lane]))
             if data[INDEX * LANES + lane] >= 1.0 or share < 1.0:
-                if share == 1.0:
+                if share == 1.0 and (not CHUNKED or sides[lane] & FIRST):
                     number = bonds.number[b, lane]
-                    log_crack(cracks, particles, i, j, scratch, data, lane, uniforms, number, step)
+                    log_crack(cracks, chunk, particles, i, j, scratch, data, lane, uniforms, number, step)
                 share = max(share - numbers.fade, 0.0)
                 data[INTACT * LANES + lane] = share
                 if share == 0.0:
                     continue
-            scatter(particles, i, j, scratch, lane, share)
+            scatter(particles, i, j, sides[lane], scratch, lane, share)

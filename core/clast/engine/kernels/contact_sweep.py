@@ -17,6 +17,7 @@ from .layout import (
     CONTACT_MI,
     CONTACT_MJ,
     DV,
+    FIRST,
     II,
     IM,
     INTACT,
@@ -29,6 +30,7 @@ from .layout import (
     REST,
     RI,
     RJ,
+    SECOND,
     WI,
     WJ,
     D,
@@ -41,6 +43,7 @@ from .layout import (
 from .slots import (
     BONDED_PAIRS_TOUCH,
     CHOICES,
+    CHUNKED,
     CONTACT_CONSTANTS,
     HISTORY,
     ONE_MATERIAL,
@@ -132,16 +135,19 @@ def contact_lane(scratch: Floats, lane: int, shared: Any, dt: float, at_contact_
 
 @inlined
 def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: int) -> None:
-    """Add a lane's loads to its particles and keep its history."""
-    load = particles.load
+    """Add a lane's loads to those of its particles that belong to the chunk, and keep its history."""
+    load, sides = particles.load, pairs.sides[k]
     i, j = pairs.first[k], pairs.second[k]
     for c in range(3):
         force = scratch[(CONTACT_F + c) * LANES + lane]
-        load[i, F + c] -= force
-        load[j, F + c] += force
-        if SPIN:
-            load[i, M + c] += scratch[(CONTACT_MI + c) * LANES + lane]
-            load[j, M + c] += scratch[(CONTACT_MJ + c) * LANES + lane]
+        if not CHUNKED or sides & FIRST:
+            load[i, F + c] -= force
+            if SPIN:
+                load[i, M + c] += scratch[(CONTACT_MI + c) * LANES + lane]
+        if not CHUNKED or sides & SECOND:
+            load[j, F + c] += force
+            if SPIN:
+                load[j, M + c] += scratch[(CONTACT_MJ + c) * LANES + lane]
     if HISTORY > 0:
         for c in range(3):
             pairs.history[k, c] = scratch[(NORMAL + c) * LANES + lane]
@@ -198,6 +204,7 @@ def apply(
 @routine
 def sweep_contacts(
     pairs: Pairs,
+    chunk: int,
     bonds: Bonds,
     particles: Particles,
     numbers: Numbers,
@@ -205,9 +212,9 @@ def sweep_contacts(
     active: Indices,
     dt: float,
 ) -> None:
-    """Add the loads of all touching pairs to the particles, in the order of the pairs."""
+    """Add the loads of a chunk's touching pairs to its particles, in the order of the pairs."""
     count = 0
-    for k in range(len(pairs.first)):
+    for k in range(pairs.begin[chunk], pairs.begin[chunk + 1]):
         if not meet(particles, pairs, k, scratch, count):
             if HISTORY > 0 and pairs.touching[k] != 0:
                 pairs.touching[k] = 0

@@ -15,6 +15,9 @@ INVERSE_MASS, INVERSE_INERTIA, MATERIAL = 0, 1, 2  # body: 1/m, 1/I, material, 0
 INDEX, INTACT = 0, 1
 BOND_SLOTS = 2
 
+# which ends of a bond or a pair a chunk loads
+FIRST, SECOND = 1, 2
+
 # scratch of the bond sweep
 BOND_D, BOND_QI, BOND_QJ, BOND_V, BOND_WI, BOND_WJ = 0, 3, 7, 11, 14, 17
 BOND_F, BOND_MI, BOND_MJ, OVERLOAD = 20, 23, 26, 29

@@ -36,20 +36,20 @@ def drift(particles: Particles, k: int, time: float) -> None:
 
 
 @routine
-def turn_all(particles: Particles, scratch: Floats, time: float) -> None:
-    """Turn all particles with their spins over some time, in blocks of lanes."""
-    pose, twist = particles.pose, particles.twist
-    for begin in range(0, len(pose), LANES):
-        count = min(LANES, len(pose) - begin)
+def turn_all(particles: Particles, begin: int, end: int, scratch: Floats, time: float) -> None:
+    """Turn particles with their spins over some time, in blocks of lanes."""
+    pose, twist = particles.pose[begin:end], particles.twist[begin:end]
+    for first in range(0, len(pose), LANES):
+        count = min(LANES, len(pose) - first)
         for lane in range(count):
             for c in range(4):
-                scratch[(TURN_Q + c) * LANES + lane] = pose[begin + lane, Q + c]
-                scratch[(TURN_W + c) * LANES + lane] = twist[begin + lane, W + c]
+                scratch[(TURN_Q + c) * LANES + lane] = pose[first + lane, Q + c]
+                scratch[(TURN_W + c) * LANES + lane] = twist[first + lane, W + c]
         for lane in range(LANES):  # always all: a loop of fixed length vectorises
             turn_lane(scratch, lane, time)
         for lane in range(count):
             for c in range(4):
-                pose[begin + lane, Q + c] = scratch[(TURN_Q + c) * LANES + lane]
+                pose[first + lane, Q + c] = scratch[(TURN_Q + c) * LANES + lane]
 
 
 @inlined
@@ -80,11 +80,13 @@ def strayed(particles: Particles, k: int) -> bool:
 
 
 @inlined
-def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers, scratch: Floats) -> bool:
+def move_before_forces(
+    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats
+) -> bool:
     """Kick and drift to the force evaluation, clear loads; tell whether neighbour lists are stale."""
     dt = numbers.dt
     stale = False
-    for k in range(len(particles.pose)):
+    for k in range(begin, end):
         if stage.kick_before != 0.0:
             kick(particles, k, stage.kick_before * dt)
         if stage.drift_before != 0.0:
@@ -96,7 +98,7 @@ def move_before_forces(particles: Particles, stage: Stage, numbers: Numbers, scr
         if strayed(particles, k):
             stale = True
     if ORIENTATION and stage.drift_before != 0.0:
-        turn_all(particles, scratch, stage.drift_before * dt)
+        turn_all(particles, begin, end, scratch, stage.drift_before * dt)
     return stale
 
 
@@ -121,17 +123,19 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
 
 
 @inlined
-def move_after_forces(particles: Particles, stage: Stage, numbers: Numbers, scratch: Floats, time: float) -> None:
+def move_after_forces(
+    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats, time: float
+) -> None:
     """Compute accelerations, kick, and drift to the end of the stage."""
     dt = numbers.dt
-    for k in range(len(particles.pose)):
+    for k in range(begin, end):
         accelerate(particles, k, numbers, time)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)
         if stage.drift_after != 0.0:
             drift(particles, k, stage.drift_after * dt)
     if ORIENTATION and stage.drift_after != 0.0:
-        turn_all(particles, scratch, stage.drift_after * dt)
+        turn_all(particles, begin, end, scratch, stage.drift_after * dt)
 
 
 @routine

@@ -9,7 +9,7 @@ from clast.engine.state import Floats, World
 from clast.maths.vec3 import norm
 
 from .bond_sweep import gather, read_motion
-from .layout import INTACT, LANES
+from .layout import FIRST, INTACT, LANES
 from .slots import (
     BONDS,
     bond_energy,
@@ -43,7 +43,7 @@ def observe(world: World, output: Floats) -> None:
         for b in range(len(bonds.first)):
             data = bonds.data[b]
             for lane in range(LANES):
-                if data[INTACT * LANES + lane] != 1.0:
+                if data[INTACT * LANES + lane] != 1.0 or not bonds.sides[b, lane] & FIRST:
                     continue
                 gather(particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
                 strain, _, _ = bond_measure(

@@ -11,6 +11,7 @@ STAGES = (Stage(0.0, 0.5, 0.0, 1.0, 0.5),)
 SPANS = (1.0,)  # time since the last force evaluation, as a fraction of the step
 CHOICES: Any = None
 
+CHUNKED = False
 BONDS = False
 BOND_ORIENTATION = False
 BOND_VELOCITY = False

@@ -1,11 +1,16 @@
-"""The step loop: from one event to the next without leaving compiled code."""
+"""The step loop: from one event to the next without leaving compiled code.
+
+Several threads may run it together, each with its share of the chunks; they wait for each other where one reads what
+others write. Walls and the clock belong to the first thread.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from clast.engine.compiler import compiled, inlined
-from clast.engine.state import Integers, World
+from clast.engine.barrier import wait
+from clast.engine.compiler import compiled, inlined, routine
+from clast.engine.state import Indices, Integers, Team, World
 from clast.parts.integrator import Stage
 
 from .bond_sweep import sweep_bonds
@@ -18,7 +23,7 @@ from .motion import (
     move_walls,
     sum_wall_forces,
 )
-from .slots import BONDS, CONTACTS, SPANS, STAGES, WALLS
+from .slots import BONDS, CHUNKED, CONTACTS, SPANS, STAGES, WALLS
 from .wall_sweep import sweep_walls
 
 
@@ -42,49 +47,86 @@ def time_since_forces(clock: Integers, start_kick: float) -> float:
 
 
 @inlined
-def count_stage(world: World) -> None:
-    """Note that a stage is over, and with the last one the step."""
-    clock = world.clock
+def count_stage(clock: Integers) -> bool:
+    """Note that a stage is over; tell whether the step is."""
     clock[MOVED] = 0
     if clock[PRIMED] == 0:
         clock[PRIMED] = 1
-        return
+        return False
     clock[STAGE] += 1
-    if clock[STAGE] == len(STAGES):
-        clock[STAGE] = 0
-        clock[STEP] += 1
-        if WALLS:
-            sum_wall_forces(world.walls)
+    if clock[STAGE] < len(STAGES):
+        return False
+    clock[STAGE] = 0
+    clock[STEP] += 1
+    return True
+
+
+@routine
+def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float) -> None:
+    """Move the chunks from ``begin`` to ``end``, and the walls, to where forces are evaluated."""
+    numbers, chunks = world.numbers, world.chunks
+    for c in range(begin, end):
+        moved_on = move_before_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, world.scratch[c])
+        world.stale[c] = 1 if moved_on else 0
+    if WALLS and first:
+        moved_on = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.wall_reach2)
+        world.stale[-1] = 1 if moved_on else 0
+        clear_wall_forces(world.walls)
+
+
+@routine
+def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: float, step: int) -> None:
+    """Add the loads of bonds and contacts to the particles of the chunks from ``begin`` to ``end``."""
+    particles, numbers = world.particles, world.numbers
+    for c in range(begin, end):
+        if BONDS:
+            sweep_bonds(world.bonds, c, particles, world.cracks, numbers, world.scratch[c], span, step)
+        if CONTACTS:
+            sweep_contacts(world.pairs, c, world.bonds, particles, numbers, world.scratch[c], active, span)
+
+
+@routine
+def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float) -> None:
+    """Move the chunks from ``begin`` to ``end``, and the walls, to the end of the stage."""
+    numbers, chunks = world.numbers, world.chunks
+    for c in range(begin, end):
+        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, world.scratch[c], time)
+    if WALLS and first:
+        move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.wall_reach2)
 
 
 @compiled
-def advance(world: World, steps: int) -> int:
+def advance(world: World, steps: int, team: Team) -> int:
     """Advance the world to step number ``steps``, or until its neighbour lists are stale.
 
-    Returns DONE or STALE; after STALE the caller makes new lists and calls again, and the step goes on where it was.
+    Every thread of the team calls it and gets the same answer: DONE or STALE; after STALE the caller makes new lists
+    and calls again, and the step goes on where it was.
     """
-    particles, numbers, clock = world.particles, world.numbers, world.clock
+    numbers, first = world.numbers, team.rank == 0
+    count = len(world.chunks) - 1
+    begin, end = count * team.rank // team.size, count * (team.rank + 1) // team.size
     active = np.empty(LANES, np.uint32)
+    clock = world.clock if first else world.clock.copy()
     while clock[STEP] < steps or clock[PRIMED] == 0:
         stage = stage_now(clock, numbers.start_kick)
         time = clock[STEP] * numbers.dt
         if clock[MOVED] == 0:
-            stale = move_before_forces(particles, stage, numbers, world.scratch)
-            if WALLS:
-                stale = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.wall_reach2) or stale
-                clear_wall_forces(world.walls)
+            move_to_forces(world, begin, end, first, stage, time)
+            if CHUNKED:
+                wait(team)
             clock[MOVED] = 1
-            if stale:
+            if world.stale.any():
                 return STALE
         span = time_since_forces(clock, numbers.start_kick) * numbers.dt
-        if BONDS:
-            sweep_bonds(world.bonds, particles, world.cracks, numbers, world.scratch, span, clock[STEP])
-        if CONTACTS:
-            sweep_contacts(world.pairs, world.bonds, particles, numbers, world.scratch, active, span)
+        sweep_chunks(world, begin, end, active, span, clock[STEP])
         if WALLS:
-            sweep_walls(world.walls, world.wall_pairs, particles, numbers, span)
-        move_after_forces(particles, stage, numbers, world.scratch, time)
-        if WALLS:
-            move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.wall_reach2)
-        count_stage(world)
+            if CHUNKED:
+                wait(team)
+            if first:
+                sweep_walls(world.walls, world.wall_pairs, world.particles, numbers, span)
+        if CHUNKED:
+            wait(team)
+        move_from_forces(world, begin, end, first, stage, time)
+        if count_stage(clock) and WALLS and first:
+            sum_wall_forces(world.walls)
     return DONE
