@@ -149,10 +149,14 @@ def _bonded_gaps(config: SceneConfig) -> Gaps | None:
 
 def _predicted(config: SceneConfig, chosen: Chosen) -> Prediction | None:
     """Return what a generator says it will make; None for one that makes it at once."""
-    if chosen.part.predict is None:
+    predict = chosen.part.predict
+    if predict is None:
         return None
+    between = config.bonds.between if config.bonds is not None else None
     with config.placing(config.path_of(chosen)):
-        told: Prediction = chosen.part.predict(chosen.params, config.folder, _bonded_gaps(config))
+        told: Prediction = predict(chosen.params, config.folder, _bonded_gaps(config))
+        if between is not None and between.materials is not None and told.material not in between.materials:
+            told = predict(chosen.params, config.folder, None)
     return told
 
 

@@ -104,6 +104,12 @@ def test_without_a_bonds_section_there_are_no_bonds() -> None:
     assert forecast(from_mapping(data)).bonds == (0.0, 0.0)
 
 
+def test_materials_that_the_scene_does_not_bond_have_no_bonds() -> None:
+    scene = load(CONFIGS / GRAIN)
+    for material, bonds in (("glass", forecast(scene).bonds), ("steel", (0.0, 0.0))):
+        assert forecast(scene.changed({"bonds.between.materials": [material]})).bonds == bonds
+
+
 def test_bonds_of_spheres_that_all_but_touch_are_known_only_after_packing() -> None:
     told = forecast(load(CONFIGS / GRAIN).changed({"bonds.between.max_gap": "1 um"}))
     assert told.bonds is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from clast.cli import main
+from clast.results import curves
+from tests.scenes import COLLISION
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 PAIR = """\
@@ -175,3 +178,109 @@ def test_what_is_wrong_with_a_table_is_told_with_its_line(
         if text is not None:
             table(name, text)
     assert said(clast("run", scene((EXPLICIT, FILES)))).startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "law: hertz_mindlin",
+            "law: {type: hertz_mindlin, rollin: none}",
+            "scene.yaml:15:30: contacts.law.rollin: not a known key; did you mean 'rolling'?",
+        ),
+        (
+            "young_modulus: 100 MPa, poisson_ratio: 0.2, normal",
+            "young_modulus: 100 mm, poisson_ratio: 0.2, normal",
+            "scene.yaml:13:26: bonds.model.young_modulus: '100 mm' is a length; a stress is needed",
+        ),
+        ("1e-7 s", "1e-7 sec", "scene.yaml:21:3: time.step: '1e-7 sec': 'sec' is not a known unit; a time is needed"),
+        (
+            "[-1.1 mm, 0, 0], radius: 1 mm",
+            "[-1.1 mm, 0, 0], radius: -1 mm",
+            "scene.yaml:8:35: particles.particles.0.radius: must be greater than 0; given",
+        ),
+        (
+            "between: [0, 1]",
+            "between: [0, 2]",
+            "scene.yaml:11:8: particles.bonds.0.between: there is no particle 2; the particles are counted from 0 to 1",
+        ),
+        (
+            "radius: 1 mm}\n    - {position: [1",
+            "radius: 1 mm, fixed: true, velocity: [1, 0, 0]}\n    - {position: [1",
+            "scene.yaml:8:7: particles.particles.0: 'fixed: true' means no velocity",
+        ),
+        (
+            "type: elastic",
+            "type: elastc",
+            "scene.yaml:13:11: bonds.model.type: no bond model is named 'elastc'; did you",
+        ),
+        (
+            "type: plane",
+            "type: plain",
+            "scene.yaml:19:11: walls.floor.type: no wall is named 'plain'; did you mean 'plane'?",
+        ),
+        ("materials:", "materials: [", "scene.yaml:3:3: not valid YAML: did not find expected ',' or ']'"),
+        (
+            "type: explicit\n  material: glass",
+            "type: explicit\n  material: glas",
+            "scene.yaml:6:3: particles.material: there",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_scene_file_is_one_message_with_its_place(old: str, new: str, message: str) -> None:
+    for command in ("check", "run"):
+        told = said(clast(command, scene((old, new))))
+        assert told.startswith(message)
+        assert len(told.splitlines()) == 1
+
+
+def test_a_scene_file_that_is_missing_or_no_text_is_told() -> None:
+    assert said(clast("run", "none.yaml")) == "none.yaml: there is no such file"
+    Path("scene.yaml").write_bytes(b"name: a\n\x89HDF\xff")
+    assert said(clast("run", "scene.yaml")).startswith("scene.yaml:2: byte 0x89 is not UTF-8 text")
+    Path("folder").mkdir()
+    assert said(clast("run", "folder")) == "folder: this is a folder; a YAML file is needed"
+
+
+def test_a_folder_with_anything_but_a_run_is_not_written_into() -> None:
+    Path("thesis").mkdir()
+    table("thesis/chapter.tex", "words")
+    table("thesis/notes.txt", "more words")
+    told = said(clast("run", scene(), "-o", "thesis"), exit_code=1)
+    assert told == (
+        "thesis: is not empty and not the folder of a run, it holds chapter.tex and 1 more; choose another with -o"
+    )
+    assert said(clast("run", scene(), "-o", "thesis/chapter.tex/run"), exit_code=1).startswith(
+        "thesis/chapter.tex/run: cannot be written (Not a directory); choose another folder with -o"
+    )
+    assert said(clast("run", scene(), "-o", "new", "--resume"), exit_code=1).startswith("new: no run to resume here")
+
+
+def test_a_run_is_neither_overwritten_nor_gone_on_with_by_another_scene() -> None:
+    table("one.yaml", COLLISION)
+    Path("run").mkdir()
+    Path("run/log").touch()
+    assert clast("run", "one.yaml", "-o", "run").exit_code == 0
+    assert said(clast("run", "one.yaml", "-o", "run"), exit_code=1) == (
+        "run: holds a run already; add --resume to go on with it, or choose another folder with -o"
+    )
+    told = said(clast("run", "one.yaml", "-o", "run", "--resume", "--set", "time.end.time=5e-4"), exit_code=1)
+    assert told.startswith(
+        "run/checkpoint.h5: belongs to another scene, so it cannot be resumed (time.end.time: 0.0004"
+    )
+    for name in ("checkpoint.h5", "checkpoint.previous.h5"):
+        Path("run", name).write_bytes(b"torn")
+    told = said(clast("run", "one.yaml", "-o", "run", "--resume"), exit_code=1)
+    assert told.startswith("run/checkpoint.h5: cannot be read")
+    assert len(told.splitlines()) == 1
+
+
+def test_what_the_disk_refuses_is_told_with_the_name_of_the_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    table("one.yaml", COLLISION)
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device", "run/curves.csv")
+
+    monkeypatch.setattr(curves, "write", full)
+    told = said(clast("run", "one.yaml", "-o", "run"), exit_code=1)
+    assert told == "run/curves.csv: No space left on device"

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 from pydantic import Field, model_validator
+from pydantic_core import InitErrorDetails
 
 from clast import hookimpl
+from clast.config.problems import problem, refuse
 from clast.config.quantities import Length, Point, SpinVector, VelocityVector
 from clast.parts.generator import BondList, Generator, Packing
 from clast.parts.params import Params
@@ -59,32 +61,32 @@ class Explicit(Params):
     @model_validator(mode="after")
     def _consistent(self) -> Explicit:
         problems = [
-            f"particles.{k} names no material; add 'material' to it, or one for all beside 'particles'"
+            problem(("particles", k), "names no material; add 'material' to it, or one for all beside 'particles'")
             for k, particle in enumerate(self.particles)
             if particle.material is None and self.material is None
         ]
         problems += _bond_problems(self.particles, self.bonds)
         if problems:
-            raise ValueError("; ".join(problems))
+            raise refuse(problems)
         return self
 
 
-def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[ExplicitBond]) -> list[str]:
-    problems: list[str] = []
+def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[ExplicitBond]) -> Iterator[InitErrorDetails]:
     seen: dict[frozenset[int], int] = {}
     for k, bond in enumerate(bonds):
         missing = [end for end in bond.between if not 0 <= end < len(particles)]
         first = seen.setdefault(frozenset(bond.between), k)
         i, j = bond.between
+        between = ("bonds", k, "between")
         if missing:
-            problems.append(f"bonds.{k} names particle {missing[0]}; there are 0 to {len(particles) - 1}")
+            last = len(particles) - 1
+            yield problem(between, f"there is no particle {missing[0]}; the particles are counted from 0 to {last}")
         elif i == j:
-            problems.append(f"bonds.{k} connects particle {i} with itself; two different particles are needed")
+            yield problem(between, f"connects particle {i} with itself; two different particles are needed")
         elif first != k:
-            problems.append(f"bonds.{k} connects particles {i} and {j}, as bonds.{first} does; remove one of them")
+            yield problem(between, f"connects particles {i} and {j}, as bonds.{first} does; remove one of them")
         elif bond.length is None and particles[i].position == particles[j].position:
-            problems.append(f"bonds.{k}: particles {i} and {j} have one centre; give the bond a 'length'")
-    return problems
+            yield problem(("bonds", k), f"particles {i} and {j} have one centre; give the bond a 'length'")
 
 
 def generate(params: Explicit, folder: Path) -> Packing:

@@ -64,12 +64,15 @@ def test_a_fixed_particle_with_a_velocity_is_a_contradiction(moving: dict[str, A
 @pytest.mark.parametrize(
     ("bonds", "told"),
     [
-        ([{"between": [0, 2], "diameter": 1}], r"bonds\.0 names particle 2; there are 0 to 1"),
-        ([{"between": [-1, 1], "diameter": 1}], r"bonds\.0 names particle -1"),
-        ([{"between": [1, 1], "diameter": 1}], r"bonds\.0 connects particle 1 with itself"),
+        (
+            [{"between": [0, 2], "diameter": 1}],
+            r"bonds\.0\.between\n  there is no particle 2; the particles are counted from 0 to 1",
+        ),
+        ([{"between": [-1, 1], "diameter": 1}], r"bonds\.0\.between\n  there is no particle -1"),
+        ([{"between": [1, 1], "diameter": 1}], r"bonds\.0\.between\n  connects particle 1 with itself"),
         (
             [{"between": [0, 1], "diameter": 1}, {"between": [1, 0], "diameter": 1}],
-            r"bonds\.1 connects particles 1 and 0, as bonds\.0 does",
+            r"bonds\.1\.between\n  connects particles 1 and 0, as bonds\.0 does",
         ),
         ([{"between": [0, 1], "diameter": 0}], "greater than 0"),
         ([{"between": [0, 1], "diameter": 1, "length": "-1 mm"}], "greater than 0"),
@@ -86,7 +89,7 @@ def test_a_bond_of_no_length_is_refused() -> None:
 
 
 def test_a_particle_needs_a_material_and_a_scene_a_particle() -> None:
-    with pytest.raises(ValidationError, match=r"particles\.1 names no material"):
+    with pytest.raises(ValidationError, match=r"particles\.1\n  names no material"):
         scene(particle(0, material="steel"), particle(3), material=None)
     with pytest.raises(ValidationError, match="at least 1"):
         scene()
