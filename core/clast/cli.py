@@ -70,10 +70,13 @@ def main() -> None:
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the run.")
 @_set
 @click.option(
-    "--threads", type=click.IntRange(min=1), default=1, show_default=True, help="Threads to use; one is used so far."
+    "--threads",
+    type=click.IntRange(min=1),
+    show_default="one a processor",
+    help="Threads that may share the steps of a large scene; results do not depend on them.",
 )
 @click.option("--resume", is_flag=True, help="Go on where the run in the folder stopped.")
-def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int, resume: bool) -> None:
+def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, resume: bool) -> None:
     """Run the scene in FILE."""
     from clast import run_command
     from clast.run_folder import refuse_foreign

@@ -20,7 +20,7 @@ def run(
     file: Path,
     output: Path | None = None,
     overrides: Iterable[str] = (),
-    threads: int = 1,
+    threads: int | None = None,
     resume: bool = False,
 ) -> None:
     """Run a scene file and print what came out.
@@ -31,11 +31,9 @@ def run(
         With a message for the user.
     """
     config = load(file, overrides)
-    if threads > 1:
-        print("one thread is used: this version computes every scene serially", flush=True)
     folder = output if output is not None else default_folder(config, resume)
     with console_listener(config) as listener:
-        outcome = run_scene(config, folder, resume, listener)
+        outcome = run_scene(config, folder, resume, listener, threads)
     print_outcome(outcome)
 
 
@@ -80,6 +78,8 @@ class Lines(Listener):
         scene = simulation.scene
         left = simulation.last_step - simulation.step
         self.say(f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left:,} steps of {simulation.dt:.3g} s")
+        if simulation.crew.told:
+            self.say(simulation.crew.told)
         seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)
         for line in time_concerns(simulation.config, left, seconds):
             self.say(line)

@@ -55,7 +55,11 @@ class Listener:
 
 
 def run_scene(
-    config: SceneConfig, folder: Path | str, resume: bool = False, listener: Listener | None = None
+    config: SceneConfig,
+    folder: Path | str,
+    resume: bool = False,
+    listener: Listener | None = None,
+    threads: int | None = None,
 ) -> Outcome:
     """Run a scene into a folder.
 
@@ -67,6 +71,8 @@ def run_scene(
     resume : bool
         Go on from the folder's last good checkpoint.
     listener : Listener, optional
+    threads : int, optional
+        How many may share the steps; as many as there are processors, if not given. Results do not depend on it.
 
     Returns
     -------
@@ -84,7 +90,7 @@ def run_scene(
     session = None
     try:
         listener.building()
-        simulation = Simulation(config)
+        simulation = Simulation(config, threads)
         if simulation.kernel.fresh:
             listener.compiling()
         session = _Session(simulation, folder, resume, listener)

@@ -60,7 +60,7 @@ class Simulation:
         How often neighbour lists were made.
     """
 
-    def __init__(self, config: SceneConfig, threads: int = 1) -> None:
+    def __init__(self, config: SceneConfig, threads: int | None = None) -> None:
         self.config = config
         self.scene: Scene = build_scene(config)
         check_start(self.scene)
@@ -73,7 +73,7 @@ class Simulation:
         try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
-        self.crew = Crew(threads, len(self.world.chunks) - 1)
+        self.crew = Crew(threads, self.world)
         self.removed = 0
         self.rebuilds = 0
         self.renew_lists()

@@ -121,11 +121,16 @@ class Numbers(NamedTuple):
 
 
 class Team(NamedTuple):
-    """One of the threads that share a step loop: its number, how many there are, and where they wait."""
+    """One of the threads that share a step loop.
+
+    Its number, how many there are, where they wait, and the chunks that are its own: from ``begin`` to ``end``.
+    """
 
     rank: int
     size: int
     barrier: Integers
+    begin: int
+    end: int
 
 
 class World(NamedTuple):
