@@ -104,7 +104,7 @@ def _lanes(chunks: Indices, ends: Integers) -> tuple[Integers, Bytes, Indices]:
     """
     order = np.lexsort((ends.max(axis=1), ends.min(axis=1)))
     rows, row_sides, row_begin = shared_out(chunks, ends[order])
-    counts = np.diff(row_begin.astype(np.int64))
+    counts = row_begin[1:].astype(np.int64) - row_begin[:-1]
     begin = np.concatenate([[0], np.cumsum(-(-counts // LANES))])
     places = np.arange(len(rows)) + np.repeat(begin[:-1] * LANES - row_begin[:-1], counts)
     lanes, sides = np.zeros(begin[-1] * LANES, np.int64), np.zeros(begin[-1] * LANES, np.uint8)

@@ -21,8 +21,8 @@ def both(x: float) -> tuple[float, float]:
 
 
 def test_inner_functions_are_compiled_into_entry_points() -> None:
-    assert both(0.1) == (0.1 / 3.0, 1.1 / 3.0)
-    assert third.dispatcher.signatures  # type: ignore[attr-defined]
+    assert both(0.1) == both.py_func(0.1) == (0.1 / 3.0, 1.1 / 3.0)  # type: ignore[attr-defined]
+    assert both.nopython_signatures  # type: ignore[attr-defined]
 
 
 def test_inner_functions_called_from_python_run_as_they_are_written() -> None:

@@ -7,8 +7,10 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 from pydantic import Field
+from scipy.spatial import cKDTree
 
 from clast.config.quantities import Length, Number, Point
+from clast.engine.chunks import LARGE
 from clast.errors import PackingError
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.parts.params import Params
@@ -96,6 +98,14 @@ def predict_agglomerate(params: AgglomerateParams, body: Body, count: int, gaps:
     return Prediction(count, 0.5 * d, params.material, bonds)
 
 
+def near_in_number(position: Floats) -> Floats:
+    """Return the positions of a large packing so numbered that neighbours in space are neighbours in number.
+
+    Threads share runs of consecutive particles, and what is near is then found in the same cache.
+    """
+    return position if len(position) <= LARGE else position[cKDTree(position).indices]
+
+
 def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple[Packing, dict[str, float | int | str]]:
     """Pack ``count`` primaries into a body; return the packing and what was reached.
 
@@ -110,7 +120,7 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
     if relaxed.overlap > allowed / d and not params.accept_overlap:
         at = ("primaries",) if params.porosity is None else ("porosity",)
         raise PackingError(_too_dense(params, body, count, relaxed, allowed), at)
-    position = np.asarray(params.centre) + d * relaxed.position
+    position = np.asarray(params.centre) + d * near_in_number(relaxed.position)
     radius = np.full(count, 0.5 * d)
     packing = Packing(
         position=position,
