@@ -7,7 +7,6 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 from pydantic import Field
-from scipy.spatial import cKDTree
 
 from clast.config.quantities import Length, Number, Point
 from clast.engine.chunks import LARGE
@@ -103,7 +102,11 @@ def near_in_number(position: Floats) -> Floats:
 
     Threads share runs of consecutive particles, and what is near is then found in the same cache.
     """
-    return position if len(position) <= LARGE else position[cKDTree(position).indices]
+    if len(position) <= LARGE:
+        return position
+    from scipy.spatial import cKDTree
+
+    return np.asarray(position[cKDTree(position).indices])
 
 
 def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple[Packing, dict[str, float | int | str]]:
