@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.barrier import wait
-from clast.engine.compiler import compiled, inlined, routine
+from clast.engine.compiler import compiled, inlined
 from clast.engine.state import Indices, Integers, Team, World
 from clast.parts.integrator import Stage
 
@@ -61,7 +61,7 @@ def count_stage(clock: Integers) -> bool:
     return True
 
 
-@routine
+@inlined
 def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float) -> None:
     """Move the chunks from ``begin`` to ``end``, and the walls, to where forces are evaluated."""
     numbers, chunks = world.numbers, world.chunks
@@ -74,7 +74,7 @@ def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage
         clear_wall_forces(world.walls)
 
 
-@routine
+@inlined
 def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: float, step: int) -> None:
     """Add the loads of bonds and contacts to the particles of the chunks from ``begin`` to ``end``."""
     particles, numbers = world.particles, world.numbers
@@ -85,7 +85,7 @@ def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: floa
             sweep_contacts(world.pairs, c, world.bonds, particles, numbers, world.scratch[c], active, span)
 
 
-@routine
+@inlined
 def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float) -> None:
     """Move the chunks from ``begin`` to ``end``, and the walls, to the end of the stage."""
     numbers, chunks = world.numbers, world.chunks
