@@ -30,7 +30,7 @@ PAIRS_PER_PARTICLE = 3.0
 BONDS_PER_PARTICLE = 6.0
 # peak resident memory, measured with Python 3.11, numpy 2.4, numba 0.68: interpreter and libraries, and what compiling
 # adds; then of grains of 361 to 17 700 primaries, most of it the linear system of the time step's limit
-LOADED_BYTES, COMPILER_BYTES = 205e6, 180e6
+LOADED_BYTES, COMPILER_BYTES = 210e6, 110e6
 PARTICLE_BYTES, BOND_BYTES = 600.0, 2800.0
 STAND_INS = 2
 """Particles that stand for a packing in the sample."""
@@ -76,7 +76,7 @@ class Forecast:
             ("memory", f"about {self.memory / 1e6:,.0f} MB, {COMPILER_BYTES / 1e6:.0f} MB more while compiling"),
             ("time step", f"{self.time_step:.3g} s"),
             ("steps", count_text(self.steps)),
-            ("time", f"about {duration(max(self.seconds, 1.0))} on one core, half a minute more with compiling"),
+            ("time", f"about {duration(max(self.seconds, 1.0))} on one core, up to half a minute more with compiling"),
         ]
         lines = [f"{name:10} {value}" for name, value in rows]
         return "\n".join([*lines, "a new kind of scene is compiled when it first runs", *self.notes, *self.concerns])
