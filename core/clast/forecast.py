@@ -19,7 +19,7 @@ from clast.engine.time_step import asked_step, bond_limit, contact_limit, pair_l
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.scene.compression import Gauge
 from clast.scene.scene import Scene, generated, join
-from clast.scene.start import check_contacts, check_start
+from clast.scene.start import check_contacts, check_start, check_tracks
 
 # seconds a step, measured on one core of an AMD EPYC (family 25, model 1) with grains of 361 to 17 700 primaries:
 # 30 ns a bond where everything fits into the cache, 45 ns where not
@@ -98,6 +98,7 @@ def forecast(config: SceneConfig) -> Forecast:
     steps = Gauge(config).last_step(step)
     particles = len(sample.radius) + sum(each.particles - STAND_INS for each in packed)
     bonds = _bonds(sample, told)
+    check_tracks(config, particles, math.inf if bonds is None or bonds.band > 0.0 else bonds.value)
     count = BONDS_PER_PARTICLE * particles if bonds is None else bonds.value
     seconds = run_seconds(config, particles, count, steps)
     memory = LOADED_BYTES + PARTICLE_BYTES * particles + BOND_BYTES * count

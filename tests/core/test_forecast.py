@@ -188,6 +188,15 @@ def test_a_generator_of_one_s_own_needs_no_prediction(tmp_path: Path) -> None:
     assert forecast(load(write(tmp_path, text))).particles == 2
 
 
+def test_a_track_of_a_particle_that_will_not_be_there_is_refused() -> None:
+    scene = load(CONFIGS / GRAIN)
+    forecast(scene.changed({"output.tracks": {"particles": [360], "bonds": [9999]}}))
+    with pytest.raises(
+        ConfigError, match=r"output\.tracks\.particles\.0: there is no number 361; the number of particles"
+    ):
+        forecast(scene.changed({"output.tracks.particles": [361]}))
+
+
 def test_a_scene_that_cannot_start_is_refused_as_far_as_it_shows(tmp_path: Path) -> None:
     scene: SceneConfig = load(write(tmp_path, COLLISION))
     with pytest.raises(ConfigError, match=r"particles\.particles\.1: particle 1 overlaps particle 0"):

@@ -182,7 +182,9 @@ def _parent(value: Any, step: str | int, above: KeyPath, written: str) -> Any:
     except KeyError:
         raise ConfigError(f"{written}: {_absent(value, step, above)}") from None
     if not isinstance(found, dict | list):
-        raise ConfigError(f"{written}: {dotted((*above, step))} is {found!r}, which has no keys to set; give it whole")
+        key = dotted((*above, step))
+        whole = f"{key}={{type: {found}, ...}}" if isinstance(found, str) else f"{key}=..."
+        raise ConfigError(f"{written}: {key} is {found!r}, which has no keys to set; give it whole: {whole}")
     return found
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from clast.config.scene import SceneConfig
 from clast.scene.bonding import close_pairs
 from clast.scene.plan import material_pairs, wall_shapes
 from clast.scene.scene import Scene
@@ -19,7 +20,7 @@ def check_start(scene: Scene) -> None:
         or bodies overlap too much.
     """
     check_contacts(scene)
-    _refuse_missing_tracks(scene)
+    check_tracks(scene.config, len(scene.radius), len(scene.ends))
     if scene.config.contacts is not None:
         _refuse_particle_overlaps(scene)
         _refuse_wall_overlaps(scene)
@@ -40,16 +41,20 @@ def check_contacts(scene: Scene) -> None:
         raise scene.config.problem(("walls",), text)
 
 
-def _refuse_missing_tracks(scene: Scene) -> None:
-    tracks = scene.config.output.tracks
-    for key, numbers, count in (
-        ("particles", tracks.particles, len(scene.radius)),
-        ("bonds", tracks.bonds, len(scene.ends)),
-    ):
+def check_tracks(config: SceneConfig, particles: int, bonds: float) -> None:
+    """Check that every particle and bond to be tracked is there.
+
+    Raises
+    ------
+    ConfigError
+        If one is not.
+    """
+    tracks = config.output.tracks
+    for key, numbers, count in (("particles", tracks.particles, particles), ("bonds", tracks.bonds, bonds)):
         for at, number in enumerate(numbers):
             if not 0 <= number < count:
-                text = f"there is no number {number}; the number of {key} is {count}, counted from 0"
-                raise scene.config.problem(("output", "tracks", key, at), text)
+                text = f"there is no number {number}; the number of {key} is {count:.0f}, counted from 0"
+                raise config.problem(("output", "tracks", key, at), text)
 
 
 def _refuse_particle_overlaps(scene: Scene) -> None:

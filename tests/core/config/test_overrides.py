@@ -29,7 +29,10 @@ def test_an_override_replaces_a_value_and_is_named_in_messages(load):
         ("bonds.colour=3", "bonds.colour: not a known key; known are between, damping, fade_steps, kinematics, model"),
         ("walls.uper.material=glass", "walls has no key 'uper'; did you mean 'upper'?"),
         ("walls.upper.point.7=1", "walls.upper.point has 3 entries, counted from 0; there is no entry 7"),
-        ("contacts.law.type=hertz", "contacts.law is 'hertz', which has no keys to set; give it whole"),
+        (
+            "contacts.law.type=hertz",
+            "contacts.law is 'hertz', which has no keys to set; give it whole: contacts.law={type: hertz, ...}",
+        ),
         ("time.step", "write it as key.path=value"),
         ("=3", "write it as key.path=value"),
         ("time..step=3", "write it as key.path=value"),
