@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import platform
-import resource
 from importlib.metadata import version
 from math import sqrt
 from pathlib import Path
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from clast.engine.sources import source_files
 from clast.results.fragments import fragments
+from clast.results.memory import peak_memory
 from clast.simulation import Simulation
 
 FILE = "summary.json"
@@ -67,7 +67,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "bonds_removed": len(scene.ends) - simulation.bonds_broken - simulation.bonds_intact,
         "fragments": int(np.count_nonzero(sizes)),
         "largest_fragment_particles": int(sizes.max(initial=0)),
-        "memory_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
+        "memory_MB": peak_memory(),
     } | compression_results(simulation, curves)
 
 
