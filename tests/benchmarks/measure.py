@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from statistics import median
 from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
+LAUNCHER = Path(__file__).with_name("launch.py")
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
 
 
@@ -29,8 +29,8 @@ class Child:
     cpu: float
     wall: float
     memory: float
-    output: str
     launched_at: float
+    output: str
 
 
 class Spread(NamedTuple):
@@ -73,24 +73,18 @@ def run_child(command: Sequence[str], folder: Path = ROOT, environment: Mapping[
     Raises
     ------
     BenchmarkError
-        If it cannot start or fails; with the end of what it printed.
+        If it does not start or fails; with the end of what it printed.
     """
     around = {**os.environ, **ONE_THREAD, **(environment or {})}
-    with tempfile.TemporaryFile("w+") as printed:
-        launched, begun = time.time(), time.perf_counter()
-        try:
-            process = subprocess.Popen(command, cwd=folder, env=around, stdout=printed, stderr=subprocess.STDOUT)
-        except OSError as error:
-            raise BenchmarkError(f"{command[0]} does not start: {error}") from error
-        _, status, used = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        wall = time.perf_counter() - begun
-        printed.seek(0)
-        output = printed.read()
-    if process.returncode:
-        raise BenchmarkError(f"{' '.join(command)} failed ({process.returncode}):\n{output[-1500:]}")
-    memory = used.ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2)
-    return Child(used.ru_utime + used.ru_stime, wall, memory, output, launched)
+    with tempfile.TemporaryDirectory() as place:
+        report, printed = Path(place) / "report.json", Path(place) / "printed"
+        with printed.open("w") as output:
+            launcher = [sys.executable, "-S", str(LAUNCHER), str(report), *command]
+            ended = subprocess.run(launcher, cwd=folder, env=around, stdout=output, stderr=subprocess.STDOUT)
+        told = printed.read_text()
+        if ended.returncode:
+            raise BenchmarkError(f"{' '.join(command)} failed ({ended.returncode}):\n{told[-1500:]}")
+        return Child(**json.loads(report.read_text()), output=told)
 
 
 def worker(task: str, *arguments: object, environment: Mapping[str, str] | None = None) -> tuple[Child, Any]:

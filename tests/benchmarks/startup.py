@@ -15,6 +15,8 @@ from tests.benchmarks.measure import ROOT, Child, Spread, clast, run_child, say,
 CONFIG = ROOT / "configs" / "crush_grain.yaml"
 SHORT = ("time.end.strain=0.03", "output.frames=12", "output.samples=60")
 """The beginning of the ready scene, with as many samples and frames per step as the whole."""
+WRITERS = ("recording", "vtk", "figure", "picture")
+ALL = "all four in one process, as a run has them"
 OUTPUT = {"samples": "samples", "frames": "frames, each flushed to disk", "saving": "checkpoints"}
 
 
@@ -28,18 +30,35 @@ class Wait(NamedTuple):
     target: float
 
 
+class Writing(NamedTuple):
+    """Writers at work in a process of their own: wall and CPU time in s, its start included, and peak memory in MB."""
+
+    wall: float
+    cpu: float
+    memory: float
+
+
 @dataclass(frozen=True)
 class FirstRun:
-    """The ready scene run where nothing was ever compiled: the process, and what it told of itself."""
+    """The ready scene run where nothing was ever compiled: the process, what it told of itself, and its writers.
+
+    ``writing`` is by writer, and under ``ALL`` for all of them in one process, as the run has it.
+    """
 
     child: Child
     told: dict[str, Any]
+    writing: dict[str, Writing]
     short: bool
 
     @property
     def first_step(self) -> float:
         """Wall s from launch to the first step."""
         return float(self.told["first_step_at"] - self.child.launched_at)
+
+    @property
+    def steps_done(self) -> float:
+        """Wall s from launch to the last step."""
+        return float(self.told["last_step_at"] - self.child.launched_at)
 
     @property
     def stepping(self) -> float:
@@ -50,11 +69,6 @@ class FirstRun:
     def output(self) -> float:
         """CPU s of samples, frames and saving during the run."""
         return float(sum(self.told["spent_s"].get(name, 0.0) for name in OUTPUT))
-
-    @property
-    def writers(self) -> dict[str, float]:
-        """CPU s of each writer after the run."""
-        return {name: s for name, s in self.told["spent_s"].items() if name not in (*OUTPUT, "lists", "")}
 
     @property
     def lists(self) -> float:
@@ -75,7 +89,18 @@ def _first_run(folder: Path, caches: dict[str, str], short: bool) -> FirstRun:
     say("first run of configs/crush_grain.yaml, with empty caches")
     command = [sys.executable, "-m", "tests.benchmarks.whole_run", str(CONFIG), str(folder / "run")]
     child = run_child([*command, *(SHORT if short else ())], ROOT, caches)
-    return FirstRun(child, json.loads(child.output.strip().splitlines()[-1]), short)
+    told = json.loads(child.output.strip().splitlines()[-1])
+    return FirstRun(child, told, _writing(folder / "run"), short)
+
+
+def _writing(run: Path) -> dict[str, Writing]:
+    """Let the run's writers write once more, all in one process and each in its own."""
+    say("its writers once more")
+    found = {}
+    for title, names in {ALL: WRITERS, **{name: (name,) for name in WRITERS}}.items():
+        child, told = worker("write", run, *names)
+        found[title] = Writing(child.wall, child.cpu, told["memory_MB"])
+    return found
 
 
 def _waits(repeats: int, caches: dict[str, str]) -> list[Wait]:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import resource
 import sys
 import time
 from collections import defaultdict
@@ -18,16 +17,18 @@ from typing import Any
 from clast import Simulation, load
 from clast.results import checkpoint
 from clast.results.frames import Frames
+from clast.results.memory import peak_memory
 from clast.results.samples import Samples
 from clast.results.store import Store
-from clast.session import Listener, run_scene
+from clast.session import Listener, _Session, run_scene
 
 PARTS = 10
 OUTPUT = ("samples", "frames", "saving")
+ENDING = "curves, summary"
 
 
 class Clocks(Listener):
-    """CPU s spent in each kind of work since the first step, and the speed along the way."""
+    """CPU s that this process spends in each kind of work since the first step, and the speed along the way."""
 
     def __init__(self) -> None:
         self.spent: defaultdict[str, float] = defaultdict(float)
@@ -35,8 +36,6 @@ class Clocks(Listener):
         self.marks: list[tuple[int, float, float, int]] = []
         self.begun = 0.0
         self.busy = False
-        self.current = ""
-        self.writer_begun = 0.0
 
     def started(self, simulation: Simulation) -> None:
         """Start the clocks: everything is compiled now."""
@@ -53,15 +52,10 @@ class Clocks(Listener):
         stepping = time.process_time() - self.begun - sum(self.spent[name] for name in OUTPUT)
         self.marks.append((simulation.step, strain, stepping, simulation.rebuilds))
 
-    def writing(self, name: str) -> None:
-        """End the step loop's account when the first writer starts, and the last writer's."""
-        now = time.process_time()
-        if not self.current:
-            self.told["loop_s"] = now - self.begun
-            self.told["memory_MB"]["last step"] = peak_memory()
-        else:
-            self.spent[self.current] += now - self.writer_begun
-        self.current, self.writer_begun = name, now
+    def stop(self) -> None:
+        """Stop the clocks: the last step is taken."""
+        self.told |= {"loop_s": time.process_time() - self.begun, "last_step_at": time.time()}
+        self.told["memory_MB"]["last step"] = peak_memory()
 
     def timed(self, name: str, work: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function that does the same and is clocked, unless a clocked one called it."""
@@ -84,19 +78,19 @@ class Clocks(Listener):
         Samples.observe = self.timed("samples", Samples.observe)  # type: ignore[method-assign]
         Store.flush = self.timed("saving", Store.flush)  # type: ignore[method-assign]
         checkpoint.save = self.timed("saving", checkpoint.save)
-        look = self.timed("frames", Frames.observe)
+        look, finish = self.timed("frames", Frames.observe), self.timed(ENDING, _Session.finish)
 
         def look_and_mark(*arguments: Any) -> None:
             look(*arguments)
             if self.begun:
                 self.mark(arguments[-1])
 
+        def stop_and_finish(*arguments: Any) -> Any:
+            self.stop()
+            return finish(*arguments)
+
         Frames.observe = look_and_mark  # type: ignore[method-assign, assignment]
-
-
-def peak_memory() -> float:
-    """Return the most memory this process has had, in MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2)
+        _Session.finish = stop_and_finish  # type: ignore[method-assign]
 
 
 def speed(marks: Sequence[tuple[int, float, float, int]]) -> list[dict[str, float]]:
@@ -119,8 +113,7 @@ def main(file: Path, folder: Path, settings: Sequence[str]) -> dict[str, Any]:
     config = load(file, settings)
     clocks = Clocks()
     clocks.watch()
-    run_scene(config, folder, listener=clocks)
-    clocks.writing("")
+    run_scene(config, folder, listener=clocks, threads=1)
     clocks.told["memory_MB"]["end"] = peak_memory()
     return clocks.told | {"spent_s": dict(clocks.spent), "speed": speed(clocks.marks)}
 

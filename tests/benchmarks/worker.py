@@ -7,19 +7,22 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
-from clast import Simulation, load
+from clast import Simulation, load, writing_process
+from clast.results.memory import peak_memory
 
 Measured = dict[str, Any]
+ONE_THREAD = 1
 
 
 def window(file: str, first: str, last: str) -> Measured:
     """Time the steps from FIRST to LAST of a scene, in CPU s; the force is that on its first wall."""
     begun = time.process_time()
-    simulation = Simulation(load(file))
+    simulation = Simulation(load(file), ONE_THREAD)
     built = time.process_time()
     simulation.advance_to(int(first))
     ready = time.process_time()
@@ -33,7 +36,7 @@ def window(file: str, first: str, last: str) -> Measured:
 
 def first_step(file: str) -> Measured:
     """Take one step of a scene; tell the wall clock then."""
-    simulation = Simulation(load(file))
+    simulation = Simulation(load(file), ONE_THREAD)
     simulation.advance_to(0)
     begun = time.perf_counter()
     simulation.advance_to(1)
@@ -43,13 +46,13 @@ def first_step(file: str) -> Measured:
 def compile_scenes(*files: str) -> Measured:
     """Compile the loops of scenes, or find them on disk."""
     for file in files:
-        Simulation(load(file)).advance_to(0)
+        Simulation(load(file), ONE_THREAD).advance_to(0)
     return {}
 
 
 def compare_scenes(first: str, steps: str, rounds: str, *files: str) -> Measured:
     """Advance several scenes by turns; CPU s per step of each, one value a round."""
-    simulations = {Path(file).stem: Simulation(load(file)) for file in files}
+    simulations = {Path(file).stem: Simulation(load(file), ONE_THREAD) for file in files}
     for simulation in simulations.values():
         simulation.advance_to(int(first))
     times: dict[str, list[float]] = {name: [] for name in simulations}
@@ -61,7 +64,14 @@ def compare_scenes(first: str, steps: str, rounds: str, *files: str) -> Measured
     return times
 
 
-TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes)}
+def write(folder: str, *names: str) -> Measured:
+    """Let writers write the files of a run again, in this process, as the one that a run starts does; peak in MB."""
+    with TemporaryDirectory() as drafts:
+        writing_process.main(Path(folder), Path(drafts), names)
+    return {"memory_MB": peak_memory()}
+
+
+TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes, write)}
 
 
 def main(arguments: Sequence[str]) -> None:

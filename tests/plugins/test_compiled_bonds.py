@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from clast.engine.records import build, numbers
 from clast.maths.counter_random import uniform
 from clast.maths.rotation import turn
 from clast.parts.bond_kinematics import BondMotion
 from clast.parts.bond_model import BondLoad, RandomKey, Strain
 from clast_plugins.bond_kinematics import incremental, total
 from tests.support.bits import assert_same_bits, random_directions, random_rotations
-from tests.support.bonds import GEOMETRY, L0, WRITTEN, law
+from tests.support.bonds import GEOMETRY, L0, WRITTEN, R, law
 
 COUNT = 2000
 
@@ -56,12 +57,15 @@ def sweep_of(model, first):
     return sweep, functions
 
 
-@pytest.mark.parametrize("name", ["elastic", "elastic_plastic, K", "micro_cracking"])
+@pytest.mark.parametrize(
+    "name",
+    ["elastic", "elastic_plastic, K", "micro_cracking", "elastic_plastic, fibre", "micro_cracking, fibre"],
+)
 def test_a_bond_model_gives_the_same_bits(name):
     draw = np.random.default_rng(7)
     bond = law(name)
-    constants = type(bond.constants)(*(float(value) for value in bond.constants))
-    strains = draw.normal(size=(COUNT, 8)) * np.array([L0] * 4 + [1.0] * 4) * 0.004
+    constants = build(type(bond.constants), numbers(bond.constants))
+    strains = draw.normal(size=(COUNT, 8)) * np.array([L0] * 4 + [L0 / R] * 4) * 0.004
     strains[::10, draw.integers(0, 8, COUNT // 10)] = 0.0
     strains[0] = 0.0
     sweep, functions = sweep_of(bond.model, bond.start)

@@ -24,7 +24,7 @@ def sweep_of(choices):
             r = numbers[k]
             touch = Touch(
                 r[0], (r[1], r[2], r[3]), (r[4], r[5], r[6]), (r[7], r[8], r[9]), (r[10], r[11], r[12]),
-                r[13], r[14], r[15], r[16], r[17],
+                r[13], r[14], r[15], r[16], r[17], (r[21], r[22], r[23]),
             )  # fmt: skip
             history = History((r[18], r[19], r[20]))
             out[k, 12] = energy(touch, constants, history, choices)
@@ -40,7 +40,7 @@ def sweep_of(choices):
 def random_touches() -> np.ndarray:
     """Return the numbers of random contacts; the first ones neither slide nor spin."""
     draw = np.random.default_rng(11)
-    rows = np.empty((COUNT, 21))
+    rows = np.empty((COUNT, 24))
     rows[:, 0] = 10.0 ** draw.uniform(-9.0, -5.0, COUNT)
     rows[:, 1:4] = random_directions(draw, COUNT)
     rows[:, 4:7] = draw.normal(size=(COUNT, 3))
@@ -49,8 +49,9 @@ def random_touches() -> np.ndarray:
     rows[:, 16] = 10.0 ** draw.uniform(6.0, 10.0, COUNT)
     rows[:, 17] = 10.0 ** draw.uniform(12.0, 18.0, COUNT)
     slip = 1e-7 * draw.normal(size=(COUNT, 3))
-    rows[:, 18:] = slip - (slip * rows[:, 1:4]).sum(axis=1)[:, None] * rows[:, 1:4]
-    rows[:100, 4:13] = 0.0
+    rows[:, 18:21] = slip - (slip * rows[:, 1:4]).sum(axis=1)[:, None] * rows[:, 1:4]
+    rows[:, 21:] = 1e-7 * rows[:, 4:7]
+    rows[:100, 4:13] = rows[:100, 21:] = 0.0
     rows[:50, 18:] = 0.0
     return rows
 

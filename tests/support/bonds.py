@@ -8,22 +8,28 @@ from typing import Any, NamedTuple
 
 from hypothesis import strategies as st
 
-from clast.engine.records import fields
+from clast.engine.records import build, width
 from clast.maths.counter_random import uniform
-from clast.maths.vec3 import Vec
+from clast.maths.vec3 import ZERO, Vec, scale
 from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, RandomKey, Strain
 from clast.plugins.discovery import discover
-from tests.support.strategies import numbers, unit, vectors
+from tests.support.strategies import negated, numbers, unit, vectors
 
 L0, R = 0.26e-3, 0.125e-3
 GEOMETRY = BondGeometry(L0, R, math.pi * R**2, math.pi * R**4 / 4.0)  # type: ignore[arg-type]
 E, NU = 564.26e6, 0.2
 G = E / (2.0 * (1.0 + NU))
-STRENGTH, SHEAR_STRENGTH, YIELD, BREAKAGE = 4.05e6, 3.0e6, 2.0e6, 0.0075
+STRENGTH, SHEAR_STRENGTH, YIELD, BREAKAGE, SHEAR_BREAKAGE = 4.05e6, 3.0e6, 2.0e6, 0.0075, 0.02
 KEY = RandomKey(1, 17)
 
 _BEAM = {"young_modulus": E, "poisson_ratio": NU}
 _PLASTIC = _BEAM | {"yield_stress": YIELD, "breakage_strain": BREAKAGE}
+_FIBRE = {
+    "moment_limit": "outer_fibre",
+    "breakage_strain_at": "outer_fibre",
+    "breakage_shear_strain": SHEAR_BREAKAGE,
+    "compressive_break": 2.0,
+}
 WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
     "elastic": ("elastic", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
     "elastic, absolute": ("elastic", _BEAM | {"normal_strength": STRENGTH, "normal_term": "absolute"}),
@@ -32,7 +38,16 @@ WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
     "micro_cracking": ("micro_cracking", _PLASTIC),
     "micro_cracking, fixed": ("micro_cracking", _PLASTIC | {"fixed_drop": 0.4, "compressive_break": 2.0}),
     "micro_cracking, trial": ("micro_cracking", _PLASTIC | {"drop_from": "trial", "weakening_factor": 0.5}),
+    "elastic_plastic, fibre": ("elastic_plastic", _PLASTIC | _FIBRE),
+    "elastic_plastic, section": ("elastic_plastic", _PLASTIC | {"moment_limit": "full_section"}),
+    "elastic_plastic, break": ("elastic_plastic", _PLASTIC | {"breakage_strain_at": "outer_fibre"}),
+    "micro_cracking, fibre": ("micro_cracking", _PLASTIC | _FIBRE),
+    "micro_cracking, section": (
+        "micro_cracking",
+        _PLASTIC | {"moment_limit": "full_section", "drop_from": "trial", "fixed_drop": 0.3},
+    ),
 }
+SHAPE_FACTORS = {"fibre": (1.0, 1.0), "section": (16.0 / (3.0 * math.pi), 4.0 / 3.0)}
 
 
 class Law(NamedTuple):
@@ -46,14 +61,11 @@ class Law(NamedTuple):
 def law(name: str, **options: Any) -> Law:
     """Return a law of ``WRITTEN`` with some options changed."""
     part, written = WRITTEN[name]
-    model: BondModel = discover().get("bond_model", part).part
-    return Law(model, model.constants(model.Params(**written | options), GEOMETRY), zero(model.State))
-
-
-def zero(record: type | None) -> Any:
-    if record is None:
-        return None
-    return record(*(0.0 if field.size == 1 else (0.0,) * field.size for field in fields(record)))
+    entry = discover().get("bond_model", part)
+    params = entry.part.Params(**written | options)
+    model: BondModel = entry.part_for(params)
+    start = None if model.State is None else build(model.State, [0.0] * width(model.State))
+    return Law(model, model.constants(params, GEOMETRY), start)
 
 
 class Response(NamedTuple):
@@ -105,8 +117,24 @@ def scaled(strain: Strain, factor: float) -> Strain:
 
 
 def strains(size: float = 0.01) -> st.SearchStrategy[Strain]:
-    """Return strains whose axial, shear, twist and bending strain each reach about ``size``."""
-    return st.builds(Strain, numbers(-size * L0, size * L0), vectors(size * L0), numbers(-size, size), vectors(size))
+    """Return strains that each reach about ``size``: axial and shear, and of the surface by twist and by bending."""
+    angle = size * L0 / R
+    return st.builds(Strain, numbers(-size * L0, size * L0), vectors(size * L0), numbers(-angle, angle), vectors(angle))
+
+
+def swapped(strain: Strain) -> Strain:
+    """Return the same deformation with the names of the ends swapped."""
+    return Strain(strain.axial, negated(strain.shear), strain.twist, negated(strain.bending))
+
+
+def bent(epsilon: float, about: Vec = (0.0, 1.0, 0.0)) -> Strain:
+    """Return the bending that strains the outermost fibre by ``epsilon``."""
+    return Strain(0.0, ZERO, 0.0, scale(epsilon * L0 / R, unit(about)))
+
+
+def twisted(gamma: float) -> Strain:
+    """Return the twist that shears the surface by ``gamma``."""
+    return Strain(0.0, ZERO, gamma * L0 / R, ZERO)
 
 
 def normal_stress(load: BondLoad) -> float:
@@ -115,6 +143,16 @@ def normal_stress(load: BondLoad) -> float:
 
 def shear_stress(load: BondLoad) -> float:
     return math.hypot(*load.shear) / float(GEOMETRY.A)
+
+
+def bending_stress(load: BondLoad) -> float:
+    """Return |M_b| R/I."""
+    return math.hypot(*load.bending) * R / float(GEOMETRY.I)
+
+
+def torsion_stress(load: BondLoad) -> float:
+    """Return M_t R/J."""
+    return load.torsion * R / (2.0 * float(GEOMETRY.I))
 
 
 def shares(count: int, weakening: float = 1.0, key: RandomKey = KEY, component: int = 0) -> list[float]:

@@ -56,6 +56,7 @@ def touches() -> st.SearchStrategy[Touch]:
             radius_j=radius_j,
             inverse_mass=1.0 / mass_i + heavy,
             inverse_inertia=2.5 / (mass_i * radius_i**2) + inertia_j,
+            moved=scale(DT, velocity),
         )
 
     return st.builds(
@@ -91,6 +92,7 @@ def mirrored(touch: Touch) -> Touch:
     return touch._replace(
         normal=negated(touch.normal),
         velocity=negated(touch.velocity),
+        moved=negated(touch.moved),
         spin_i=touch.spin_j,
         spin_j=touch.spin_i,
         radius_i=touch.radius_j,
@@ -100,5 +102,5 @@ def mirrored(touch: Touch) -> Touch:
 
 def turned(touch: Touch, q: Quat) -> Touch:
     """Return the same contact in a rotated world."""
-    names = ("normal", "velocity", "spin_i", "spin_j")
+    names = ("normal", "velocity", "moved", "spin_i", "spin_j")
     return touch._replace(**{name: rotate(q, getattr(touch, name)) for name in names})

@@ -26,7 +26,8 @@ class Chosen:
     kind, name : str
         Kind of the part and its name in the registry.
     part : object
-        What the plugin registered, for instance a :class:`clast.parts.bond_model.BondModel`.
+        What the plugin registered, for instance a :class:`clast.parts.bond_model.BondModel`, or its variant for
+        these parameters.
     params : Params
         An instance of ``part.Params``, in SI.
     source : Source
@@ -78,7 +79,7 @@ def choose(kind: str, given: Any, registry: Registry, also: frozenset[str] = fro
         params = entry.part.Params.model_validate(rest, context={"registry": registry})
     except ValidationError as error:
         raise refuse(explain(error, entry.part.Params, also | {"type"})) from None
-    return Chosen(kind, name, entry.part, params, entry.source)
+    return Chosen(kind, name, entry.part_for(params), params, entry.source)
 
 
 def _name_and_rest(kind: str, given: Any, registry: Registry) -> tuple[str, dict[str, Any]]:

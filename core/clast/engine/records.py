@@ -1,8 +1,11 @@
-"""How the records of laws lie in tables: floats take one slot, vectors three, quaternions four."""
+"""How the records of laws lie in tables: floats take one slot, vectors three, quaternions four.
+
+A record may hold others: their numbers lie where they stand, and their fields are named ``outer.inner``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from types import UnionType
 from typing import Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
@@ -19,13 +22,33 @@ class Field(NamedTuple):
     size: int
 
 
-def fields(record: type | None) -> list[Field]:
-    """Return the fields of a NamedTuple type.
+def members(record: type) -> dict[str, int | type]:
+    """Return what the fields of a NamedTuple type are by name: so many numbers, or another record.
 
     Raises
     ------
     PluginError
-        If the type is no NamedTuple, or a field is neither a number nor a fixed tuple of floats.
+        If the type is no NamedTuple, or a field is neither a number, a fixed tuple of floats nor a NamedTuple.
+    """
+    if not is_record(record):
+        raise PluginError(f"{record.__module__}.{record.__qualname__} must be a NamedTuple")
+    hints = get_type_hints(record)
+    names = record._fields  # type: ignore[attr-defined]
+    return {name: hints[name] if is_record(hints[name]) else _size(record, name, hints[name]) for name in names}
+
+
+def is_record(value: Any) -> bool:
+    """Return whether a type is a NamedTuple, or a value is one of such a type."""
+    return hasattr(value, "_fields")
+
+
+def fields(record: type | None) -> list[Field]:
+    """Return the fields of a NamedTuple type, those of records inside it in their place.
+
+    Raises
+    ------
+    PluginError
+        If the record cannot be kept; see :func:`members`.
 
     Examples
     --------
@@ -35,12 +58,18 @@ def fields(record: type | None) -> list[Field]:
     >>> fields(State)
     [Field(name='strain', size=1), Field(name='slip', size=3)]
     """
-    if record is None:
-        return []
-    if not hasattr(record, "_fields"):
-        raise PluginError(f"{record.__module__}.{record.__qualname__} must be a NamedTuple")
-    hints = get_type_hints(record)
-    return [Field(name, _size(record, name, hints[name])) for name in record._fields]
+    found: list[Field] = []
+    for name, member in members(record).items() if record is not None else ():
+        if isinstance(member, int):
+            found.append(Field(name, member))
+        else:
+            found += [Field(f"{name}.{inner}", size) for inner, size in fields(member)]
+    return found
+
+
+def leaves(record: Any) -> list[Any]:
+    """Return the values of a record, those of records inside it in their place."""
+    return [leaf for value in record for leaf in (leaves(value) if is_record(value) else [value])]
 
 
 def _size(record: type, name: str, hint: Any) -> int:
@@ -63,6 +92,8 @@ def width(record: type | None) -> int:
 def construct(record: type, name: str, values: Iterable[str]) -> str:
     """Return the expression that builds a record, known as ``name``, from one text per number.
 
+    A record in the field ``inner`` is known as ``name_inner``.
+
     >>> class State(NamedTuple):
     ...     strain: float
     ...     slip: tuple[float, float, float]
@@ -70,11 +101,41 @@ def construct(record: type, name: str, values: Iterable[str]) -> str:
     'State(a, (b, c, d,))'
     """
     texts = iter(values)
-    parts = []
-    for field in fields(record):
-        own = [next(texts) for _ in range(field.size)]
-        parts.append(own[0] if field.size == 1 else f"({', '.join(own)},)")
-    return f"{name}({', '.join(parts)})"
+
+    def take(size: int) -> str:
+        return next(texts) if size == 1 else f"({', '.join(next(texts) for _ in range(size))},)"
+
+    return construct_from_fields(record, name, take)
+
+
+def construct_from_fields(record: type, name: str, take: Callable[[int], str]) -> str:
+    """Return the expression that builds a record from the text of each field, ``take(size)``, in their order."""
+    return str(_fold(record, name, take, lambda _, known_as, parts: f"{known_as}({', '.join(parts)})"))
+
+
+def build(record: type, values: Iterable[float]) -> Any:
+    """Return a record of its numbers in a row.
+
+    >>> class State(NamedTuple):
+    ...     strain: float
+    ...     slip: tuple[float, float, float]
+    >>> build(State, [1.0, 2.0, 3.0, 4.0])
+    State(strain=1.0, slip=(2.0, 3.0, 4.0))
+    """
+    row = iter(values)
+
+    def take(size: int) -> float | tuple[float, ...]:
+        return next(row) if size == 1 else tuple(next(row) for _ in range(size))
+
+    return _fold(record, "", take, lambda kind, _, parts: kind(*parts))
+
+
+def _fold(record: type, name: str, take: Callable[[int], Any], whole: Callable[[type, str, list[Any]], Any]) -> Any:
+    parts = [
+        take(member) if isinstance(member, int) else _fold(member, f"{name}_{field}", take, whole)
+        for field, member in members(record).items()
+    ]
+    return whole(record, name, parts)
 
 
 def destruct(record: type, variable: str) -> list[str]:
@@ -97,7 +158,7 @@ def columns(record: Any, count: int) -> NDArray[np.float64]:
     """Return the (count, width) table of a record whose fields are numbers, vectors, or arrays of them."""
     table = [
         np.broadcast_to(np.asarray(value, np.float64).reshape(-1, field.size), (count, field.size))
-        for field, value in zip(fields(type(record)), record, strict=True)
+        for field, value in zip(fields(type(record)), leaves(record), strict=True)
     ]
     return np.concatenate(table, axis=1) if table else np.zeros((count, 0))
 

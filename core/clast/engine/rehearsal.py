@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.records import columns, fields
+from clast.engine.records import build, columns, fields, leaves, width
 from clast.engine.sources import source_files
 from clast.errors import PluginError
 from clast.maths.rotation import IDENTITY
@@ -83,25 +83,20 @@ def _try_contact(scene: Scene, plan: Blueprint) -> None:
 def _zeros(record: type | None) -> Any:
     if record is None:
         return None
-    return record(*(0.0 if field.size == 1 else (0.0,) * field.size for field in fields(record)))
+    return build(record, [0.0] * width(record))
 
 
 def _first(record: type | None, values: Any) -> Any:
     """Return the record of the first bond."""
     if record is None or not isinstance(values, record):
         raise PluginError(f"{_name(record)} was expected from 'constants', 'reference' or 'start', given {values!r}")
-    row = [float(x) for x in columns(values, 1 if all(np.ndim(v) == 0 for v in values) else _longest(values))[0]]  # type: ignore[attr-defined]
-    parts, at = [], 0
-    for field in fields(record):
-        parts.append(row[at] if field.size == 1 else tuple(row[at : at + field.size]))
-        at += field.size
-    return record(*parts)
+    return build(record, (float(x) for x in columns(values, _longest(values))[0]))
 
 
 def _longest(values: Any) -> int:
     return max(
         len(np.atleast_1d(v)) if f.size == 1 else len(np.atleast_2d(v))
-        for f, v in zip(fields(type(values)), values, strict=True)
+        for f, v in zip(fields(type(values)), leaves(values), strict=True)
     )
 
 

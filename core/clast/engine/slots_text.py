@@ -7,7 +7,7 @@ from typing import Any
 
 from clast.engine.blueprint import Blueprint, BondPlan
 from clast.engine.kernels.layout import BOND_SLOTS
-from clast.engine.records import construct, destruct, fields, width
+from clast.engine.records import construct, construct_from_fields, destruct, fields, members, width
 from clast.engine.sources import address
 
 HEADER = '''"""What one scene plugs into the step loop. Written by the assembler; do not edit."""
@@ -100,6 +100,15 @@ def _bind(name: str, item: Callable[..., Any] | type | None) -> str:
     return f"{name} = inlined(import_module({module!r}).{qualified})"
 
 
+def _bind_record(name: str, record: type | None) -> str:
+    """Bind a record's type, and the types of the records inside it under the names that ``construct`` gives them."""
+    lines = [_bind(name, record)]
+    for field, member in members(record).items() if record is not None else ():
+        if not isinstance(member, int):
+            lines.append(_bind_record(f"{name}_{field}", member))
+    return "\n".join(lines)
+
+
 def _function(name: str, arguments: str, body: str | Sequence[str]) -> str:
     lines = [body] if isinstance(body, str) else list(body) or ["pass"]
     return "\n".join(["", "@inlined", f"def {name}({arguments}):", *(f"    {line}" for line in lines)])
@@ -135,10 +144,10 @@ def _bonds(plan: Blueprint) -> str:
         *(_bind(f"bond_{name}", getattr(model, name)) for name in ("load", "failure", "mode", "energy")),
         _bind("bond_overload", model.overload),
         _bind("bond_on_event", model.on_event),
-        _bind("Reference", kinematics.Reference),
-        _bind("KinematicState", kinematics.State),
-        _bind("BondConstants", model.Constants),
-        _bind("BondState", model.State),
+        _bind_record("Reference", kinematics.Reference),
+        _bind_record("KinematicState", kinematics.State),
+        _bind_record("BondConstants", model.Constants),
+        _bind_record("BondState", model.State),
         _bind("bond_flow", model.flow)
         if model.flow
         else _function("bond_flow", "strain, constants, state", "return state"),
@@ -180,8 +189,8 @@ def _contacts(plan: Blueprint) -> str:
         f"CHOICES = Choices{tuple(plan.contacts.choices)!r}",
         _bind("contact_load", law.load),
         _bind("contact_energy", law.energy),
-        _bind("ContactConstants", law.Constants),
-        _bind("History", law.History),
+        _bind_record("ContactConstants", law.Constants),
+        _bind_record("History", law.History),
         _function(
             "read_contact_constants",
             "data, first, lane",
@@ -202,10 +211,10 @@ def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> li
             "write_history = carry_history = load_history = store_history = nothing",
         ]
     numbers = destruct(kept, "record")
-    carried = [
+    carried = iter(
         f"spin_about(swing(record.{field.name}, old, new), new, angle)" if field.size == 3 else f"record.{field.name}"
         for field in fields(kept)
-    ]
+    )
     rows = [f"row[{3 + k}]" for k in range(len(numbers))]
     return [
         *lines,
@@ -213,7 +222,11 @@ def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> li
         _function(
             "write_history", "data, first, lane, record", [f"{a} = {b}" for a, b in zip(in_lane, numbers, strict=False)]
         ),
-        _function("carry_history", "record, old, new, angle", f"return History({', '.join(carried)})"),
+        _function(
+            "carry_history",
+            "record, old, new, angle",
+            f"return {construct_from_fields(kept, 'History', lambda _: next(carried))}",
+        ),
         _function("load_history", "row", f"return {construct(kept, 'History', rows)}"),
         _function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers, strict=True)]),
     ]
@@ -229,11 +242,11 @@ def _walls(plan: Blueprint) -> str:
     lines, near, course = [], [], []
     for k, wall in enumerate(plan.walls):
         values = [f"row[{n}]" for n in range(width(wall.Shape))]
-        lines += [_bind(f"nearest_{k}", wall.nearest), _bind(f"Shape{k}", wall.Shape)]
+        lines += [_bind(f"nearest_{k}", wall.nearest), _bind_record(f"Shape{k}", wall.Shape)]
         near.append(f"nearest_{k}({construct(wall.Shape, f'Shape{k}', values)}, x)")
     for k, motion in enumerate(plan.motions):
         values = [f"row[{n}]" for n in range(width(motion.Course))]
-        lines += [_bind(f"velocity_{k}", motion.velocity), _bind(f"Course{k}", motion.Course)]
+        lines += [_bind(f"velocity_{k}", motion.velocity), _bind_record(f"Course{k}", motion.Course)]
         course.append(f"velocity_{k}({construct(motion.Course, f'Course{k}', values)}, time)")
     course.append("ZERO")  # walls without a motion stand still
     lines.append(_dispatch("wall_nearest", "kind, row, x", near, "None"))
@@ -246,7 +259,7 @@ def _body(plan: Blueprint) -> str:
     for k, force in enumerate(plan.body_forces):
         values = [f"row[{at + n}]" for n in range(width(force.Numbers))]
         at += len(values)
-        lines += [_bind(f"acceleration_{k}", force.acceleration), _bind(f"Numbers{k}", force.Numbers)]
+        lines += [_bind(f"acceleration_{k}", force.acceleration), _bind_record(f"Numbers{k}", force.Numbers)]
         total = f"add({total}, acceleration_{k}({construct(force.Numbers, f'Numbers{k}', values)}, x, v, time))"
     lines.append(_function("body_acceleration", "row, x, v, time", f"return {total}"))
     return "\n".join(lines)

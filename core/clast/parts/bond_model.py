@@ -107,7 +107,7 @@ class BondModel:
     Params : type
         What the user writes under ``bonds.model``.
     Constants : NamedTuple type
-        Numbers the law needs, floats or vectors.
+        Numbers the law needs: floats, vectors, or NamedTuples of them.
     constants : (params, geometry) -> Constants
         Computed once; each field is one number for all bonds or an array with one entry a bond.
     stiffness : (params, geometry) -> Stiffness
@@ -123,13 +123,16 @@ class BondModel:
     modes : tuple of str
         Names of the ways to break.
     State : NamedTuple type or None
-        History of a bond: floats and vectors, all 0 at the start. None costs nothing.
+        History of a bond: floats, vectors, or NamedTuples of them, all 0 at the start. None costs nothing.
     flow : (strain, constants, state) -> State, optional
         Continuous change of the state (plastic flow), before the load is computed.
     overload : (strain, constants, state) -> float, optional
         Above 1 a discrete event is due.
     on_event : (strain, constants, state, key) -> State, optional
         One discrete event, e.g. a stress drop; repeated while ``overload`` stays above 1.
+    variant : (params) -> BondModel, optional
+        The law for given parameters, which takes the place of this one: what an option needs of state and arithmetic
+        costs nothing where it is not chosen.
     """
 
     summary: str
@@ -146,3 +149,4 @@ class BondModel:
     flow: Callable[..., Any] | None = None
     overload: Callable[..., float] | None = None
     on_event: Callable[..., Any] | None = None
+    variant: Callable[[Any], BondModel] | None = None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from clast.maths.vec3 import Vec
+from clast.maths.vec3 import ZERO, Vec
 from clast.parts.params import Params
 
 
@@ -29,6 +29,10 @@ class Touch(NamedTuple):
         Radii in m; 0 for a wall.
     inverse_mass, inverse_inertia : float
         1/m* = 1/m_i + 1/m_j in 1/kg, 1/I* likewise in 1/(kg m²); walls and prescribed particles count as infinite.
+    moved : vector
+        How far j has moved against i at the contact point since the forces before, in m, for tangential springs.
+        Summing it up is of second order with every integrator; ``velocity`` times the step is not, because velocities
+        may belong to the end of that time. Given when the law has a History that is stored.
     """
 
     overlap: float
@@ -41,6 +45,7 @@ class Touch(NamedTuple):
     radius_j: float
     inverse_mass: float
     inverse_inertia: float
+    moved: Vec = ZERO
 
 
 class ContactLoad(NamedTuple):

@@ -93,6 +93,28 @@ class Registered:
         found = inspect.getsourcefile(self.part.Params)
         return Path(found) if found else None
 
+    def part_for(self, params: Params) -> Any:
+        """Return the part that given parameters ask for: its variant where it has any, or the part itself.
+
+        Raises
+        ------
+        PluginError
+            If the part's ``variant`` fails or returns something else than a part of this kind.
+        """
+        variant = getattr(self.part, "variant", None)
+        if variant is None:
+            return self.part
+        where = f"{self.kind} {self.name!r} of plugin {self.source.plugin!r}: 'variant'"
+        try:
+            found = variant(params)
+        except Exception as error:
+            raise PluginError(
+                f"{where} raised {one_line(error)} in {plugin_line(error) or 'an unknown line'}"
+            ) from error
+        if not isinstance(found, type(self.part)):
+            raise PluginError(f"{where} must return a {type(self.part).__name__}, given {found!r}")
+        return found
+
 
 @dataclass(frozen=True)
 class Failure:

@@ -13,7 +13,7 @@ from clast.config.choice import Chosen
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
 from clast.engine.chunks import cut
 from clast.engine.kernels.layout import CONTACT_FREE, LANES
-from clast.engine.records import fields, numbers, width
+from clast.engine.records import fields, leaves, numbers, width
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Walls, World
 from clast.engine.tables import (
     bond_table,
@@ -53,7 +53,7 @@ def _bond_plan(scene: Scene) -> BondPlan | None:
     record = config.model.part.constants(config.model.params, scene.bond_geometry)
     uniform = [
         np.ndim(v) < (1 if f.size == 1 else 2)
-        for f, v in zip(fields(type(record)), record, strict=True)
+        for f, v in zip(fields(type(record)), leaves(record), strict=True)
         for _ in range(f.size)
     ]
     return BondPlan(
@@ -185,7 +185,7 @@ def _bonds(scene: Scene, plan: Blueprint, chunks: Indices) -> tuple[Bonds, Float
     table = bond_table(plan.bonds, chunks, scene.ends, reference, constants, start, damping)
     shared = [
         np.ravel(v)
-        for f, v in zip(fields(type(constants)), constants, strict=True)
+        for f, v in zip(fields(type(constants)), leaves(constants), strict=True)
         if np.ndim(v) < (1 if f.size == 1 else 2)
     ]
     return table, np.concatenate([*shared, np.zeros(0)]).astype(float)

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import sqrt
-from typing import Annotated, NamedTuple
-
-from pydantic import Field
+from typing import NamedTuple
 
 from clast import hookimpl
-from clast.config.quantities import Number, Stress
 from clast.maths.vec3 import Vec, dot, scale, sub
 from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Stiffness, Strain
-from clast.parts.params import Params
 from clast.plugins.registry import Registry
+from clast_plugins.bond_models import outer_fibre
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
+from clast_plugins.bond_models.outer_fibre import (
+    Fibre,
+    PlasticFibre,
+    fibre_numbers,
+    plastic_flow,
+    with_angles,
+    with_moments,
+)
 from clast_plugins.bond_models.strain_limit import MODES, elastic_part, failure, mode
+from clast_plugins.bond_models.yielding import YieldingBond
 
 
-class ElasticPlastic(Params):
+class ElasticPlastic(YieldingBond):
     r"""Elastic, perfectly plastic bond that breaks at a total axial strain.
 
     Equation
@@ -32,21 +39,14 @@ class ElasticPlastic(Params):
 
     Limits
     ------
-    Normal and shear stress yield separately; moments stay elastic and never break a bond.
+    Normal and shear stress yield separately; moments stay elastic and never break a bond, unless ``moment_limit``,
+    ``breakage_strain_at`` or ``breakage_shear_strain`` say so: see ``outer_fibre.py``.
 
     Source
     ------
     Rotter, Dosta, Düster (2023), Eqs. 9–11 and 13. ``compressive_break`` is not in the paper: the authors' program of
-    the time also broke bonds below −2 ε_max.
+    the time also broke bonds below −2 ε_max. Nor are limits of moments, in the paper or in that program.
     """
-
-    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E of the bond")]
-    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, description="Poisson's ratio of the bond")]
-    yield_stress: Annotated[Stress, Field(gt=0, description="Yield stress sigma_y, normal and shear")]
-    breakage_strain: Annotated[Number, Field(gt=0, description="Axial strain at which the bond breaks, epsilon_max")]
-    compressive_break: Annotated[
-        Number, Field(ge=0, description="K: also breaks at an axial strain below -K epsilon_max; 0: never")
-    ] = 0.0
 
 
 class Constants(NamedTuple):
@@ -122,23 +122,75 @@ def energy(strain: Strain, c: Constants, state: State) -> float:
     return beam_energy(elastic_part(strain, c, state), load(strain, c, state))
 
 
+class FibreConstants(NamedTuple):
+    """Numbers of Model 2 where it watches its outermost fibre."""
+
+    axis: Constants
+    fibre: Fibre
+
+
+class FibreState(NamedTuple):
+    """Plastic strains of the axis and of the outermost fibre."""
+
+    axis: State
+    fibre: PlasticFibre
+
+
+def fibre_constants(params: ElasticPlastic, bond: BondGeometry) -> FibreConstants:
+    """Compute the constants of all bonds."""
+    return FibreConstants(constants(params, bond), fibre_numbers(params, bond))
+
+
+def fibre_flow(strain: Strain, c: FibreConstants, state: FibreState) -> FibreState:
+    """Radial return of normal stress, shear stress, torsion and bending, each for itself."""
+    return FibreState(flow(strain, c.axis, state.axis), plastic_flow(strain, c.fibre, state.fibre))
+
+
+def fibre_load(strain: Strain, c: FibreConstants, state: FibreState) -> BondLoad:
+    """Stiffness times elastic strain, moments included."""
+    return with_moments(load(strain, c.axis, state.axis), strain, c.fibre, state.fibre)
+
+
+def fibre_energy(strain: Strain, c: FibreConstants, state: FibreState) -> float:
+    """Return the elastic energy in J."""
+    elastic = with_angles(elastic_part(strain, c.axis, state.axis), strain, c.fibre, state.fibre)
+    return beam_energy(elastic, fibre_load(strain, c, state))
+
+
+MODEL = BondModel(
+    summary="Model 2: elastic, perfectly plastic, breaks at a strain",
+    Params=ElasticPlastic,
+    Constants=Constants,
+    constants=constants,
+    stiffness=stiffness,
+    load=load,
+    failure=failure,
+    mode=mode,
+    energy=energy,
+    modes=MODES,
+    State=State,
+    flow=flow,
+)
+FIBRE_MODEL = replace(
+    MODEL,
+    Constants=FibreConstants,
+    constants=fibre_constants,
+    load=fibre_load,
+    failure=outer_fibre.failure,
+    mode=outer_fibre.mode,
+    energy=fibre_energy,
+    modes=outer_fibre.MODES,
+    State=FibreState,
+    flow=fibre_flow,
+)
+
+
+def variant(params: ElasticPlastic) -> BondModel:
+    """Return the law that watches its outermost fibre where that is asked for."""
+    return FIBRE_MODEL if params.watches_fibre else MODEL
+
+
 @hookimpl
 def clast_register(registry: Registry) -> None:
     """Offer Model 2."""
-    registry.bond_model(
-        "elastic_plastic",
-        BondModel(
-            summary="Model 2: elastic, perfectly plastic, breaks at a strain",
-            Params=ElasticPlastic,
-            Constants=Constants,
-            constants=constants,
-            stiffness=stiffness,
-            load=load,
-            failure=failure,
-            mode=mode,
-            energy=energy,
-            modes=MODES,
-            State=State,
-            flow=flow,
-        ),
-    )
+    registry.bond_model("elastic_plastic", replace(MODEL, variant=variant))

@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import sqrt
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
 from clast import hookimpl
-from clast.config.quantities import Number, Stress
+from clast.config.quantities import Number
 from clast.maths.counter_random import uniform
 from clast.maths.vec3 import Vec, add, dot, norm, scale, sub
 from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, RandomKey, Stiffness, Strain
-from clast.parts.params import Params
 from clast.plugins.registry import Registry
+from clast_plugins.bond_models import outer_fibre
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
+from clast_plugins.bond_models.outer_fibre import Fibre, PlasticFibre, fibre_numbers, with_angles, with_moments, yielded
 from clast_plugins.bond_models.strain_limit import MODES, elastic_part, failure, mode
+from clast_plugins.bond_models.yielding import YieldingBond
 
-NORMAL, SHEAR = 0, 1
+NORMAL, SHEAR, TORSION, BENDING = 0, 1, 2, 3
 
 
-class MicroCracking(Params):
+class MicroCracking(YieldingBond):
     r"""Micro-cracking bond: at the yield stress the stress drops to a random share, then reloads elastically.
 
     Equation
@@ -34,22 +38,18 @@ class MicroCracking(Params):
 
     Limits
     ------
-    Moments stay elastic and never break a bond; the reload stiffness and σ_y do not degrade.
+    The reload stiffness and σ_y do not degrade. Moments stay elastic and never break a bond, unless ``moment_limit``
+    (their stresses then drop likewise), ``breakage_strain_at`` or ``breakage_shear_strain`` say so: see
+    ``outer_fibre.py``.
 
     Source
     ------
     Rotter, Dosta, Düster (2023), Eqs. 11–13, Fig. 5. At a drop the rest of the strain increment reloads elastically,
     so the curve does not depend on the time step; ``drop_from: trial`` takes η times the stress of the step, as the
-    authors' program does. ``compressive_break`` is not in the paper: that program of the time used 2.
+    authors' program does. ``compressive_break`` is not in the paper: that program of the time used 2. Limits of
+    moments are in neither.
     """
 
-    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E of the bond")]
-    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, description="Poisson's ratio of the bond")]
-    yield_stress: Annotated[Stress, Field(gt=0, description="Stress sigma_y at which a micro-crack opens")]
-    breakage_strain: Annotated[Number, Field(gt=0, description="Axial strain at which the bond breaks, epsilon_max")]
-    compressive_break: Annotated[
-        Number, Field(ge=0, description="K: also breaks at an axial strain below -K epsilon_max; 0: never")
-    ] = 0.0
     weakening_factor: Annotated[Number, Field(gt=0, le=1, description="w: the drop leaves w U(0, 1) of the stress")] = (
         1.0
     )
@@ -181,24 +181,100 @@ def energy(strain: Strain, c: Constants, state: State) -> float:
     return beam_energy(elastic_part(strain, c, state), load(strain, c, state))
 
 
+class FibreConstants(NamedTuple):
+    """Numbers of Model 3 where it watches its outermost fibre."""
+
+    axis: Constants
+    fibre: Fibre
+
+
+class FibreState(NamedTuple):
+    """Opening of the micro-cracks on the axis and at the outermost fibre, and how many drops the moments have had."""
+
+    axis: State
+    fibre: PlasticFibre
+    torsion_drops: float
+    bending_drops: float
+
+
+def fibre_constants(params: MicroCracking, bond: BondGeometry) -> FibreConstants:
+    """Compute the constants of all bonds."""
+    return FibreConstants(constants(params, bond), fibre_numbers(params, bond))
+
+
+def fibre_load(strain: Strain, c: FibreConstants, state: FibreState) -> BondLoad:
+    """Stress times section, moments included."""
+    return with_moments(load(strain, c.axis, state.axis), strain, c.fibre, state.fibre)
+
+
+def fibre_energy(strain: Strain, c: FibreConstants, state: FibreState) -> float:
+    """Return the elastic energy in J."""
+    elastic = with_angles(elastic_part(strain, c.axis, state.axis), strain, c.fibre, state.fibre)
+    return beam_energy(elastic, fibre_load(strain, c, state))
+
+
+def fibre_overload(strain: Strain, c: FibreConstants, state: FibreState) -> float:
+    """Return the largest of the four squares: above 1 a drop is due."""
+    torsion, bending = outer_fibre.overloads(strain, c.fibre, state.fibre)
+    return max(overload(strain, c.axis, state.axis), torsion, bending)
+
+
+def fibre_event(strain: Strain, c: FibreConstants, state: FibreState, key: RandomKey) -> FibreState:
+    """Drop the most loaded of normal stress, shear stress, torsion and bending to its remaining share."""
+    torsion, bending = outer_fibre.overloads(strain, c.fibre, state.fibre)
+    if overload(strain, c.axis, state.axis) >= max(torsion, bending):
+        axis = on_event(strain, c.axis, state.axis, key)
+        return FibreState(axis, state.fibre, state.torsion_drops, state.bending_drops)
+    if torsion >= bending:
+        lost = lost_share(c.axis, torsion, remaining_share(c.axis, key, TORSION, state.torsion_drops))
+        fibre = yielded(strain, c.fibre, state.fibre, lost, 0.0)
+        return FibreState(state.axis, fibre, state.torsion_drops + 1.0, state.bending_drops)
+    lost = lost_share(c.axis, bending, remaining_share(c.axis, key, BENDING, state.bending_drops))
+    fibre = yielded(strain, c.fibre, state.fibre, 0.0, lost)
+    return FibreState(state.axis, fibre, state.torsion_drops, state.bending_drops + 1.0)
+
+
+def lost_share(c: Constants, overload: float, remaining: float) -> float:
+    """Return the share of an elastic strain that a drop takes: 1 − η of the strain at the limit, or of all of it."""
+    return (1.0 - remaining) * (1.0 if c.from_trial > 0.0 else 1.0 / sqrt(overload))
+
+
+MODEL = BondModel(
+    summary="Model 3: stress drops by random shares at the yield stress, breaks at a strain",
+    Params=MicroCracking,
+    Constants=Constants,
+    constants=constants,
+    stiffness=stiffness,
+    load=load,
+    failure=failure,
+    mode=mode,
+    energy=energy,
+    modes=MODES,
+    State=State,
+    overload=overload,
+    on_event=on_event,
+)
+FIBRE_MODEL = replace(
+    MODEL,
+    Constants=FibreConstants,
+    constants=fibre_constants,
+    load=fibre_load,
+    failure=outer_fibre.failure,
+    mode=outer_fibre.mode,
+    energy=fibre_energy,
+    modes=outer_fibre.MODES,
+    State=FibreState,
+    overload=fibre_overload,
+    on_event=fibre_event,
+)
+
+
+def variant(params: MicroCracking) -> BondModel:
+    """Return the law that watches its outermost fibre where that is asked for."""
+    return FIBRE_MODEL if params.watches_fibre else MODEL
+
+
 @hookimpl
 def clast_register(registry: Registry) -> None:
     """Offer Model 3."""
-    registry.bond_model(
-        "micro_cracking",
-        BondModel(
-            summary="Model 3: stress drops by random shares at the yield stress, breaks at a strain",
-            Params=MicroCracking,
-            Constants=Constants,
-            constants=constants,
-            stiffness=stiffness,
-            load=load,
-            failure=failure,
-            mode=mode,
-            energy=energy,
-            modes=MODES,
-            State=State,
-            overload=overload,
-            on_event=on_event,
-        ),
-    )
+    registry.bond_model("micro_cracking", replace(MODEL, variant=variant))

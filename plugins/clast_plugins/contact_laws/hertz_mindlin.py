@@ -29,7 +29,8 @@ class HertzMindlin(Params):
     Symbols
     -------
     δ, v_n : overlap in m and its rate in m/s
-    ξ, v_t : tangential displacement since touch in m and its rate; ξ turns with the contact plane
+    ξ, v_t : tangential displacement since touch in m and its rate; ξ turns with the contact plane. While the contact
+        slides, spring and dashpot together give way in front of a slider: k_t ξ + c √(m* k_t) dξ/dt is the limit
     E*, G*, R*, m* : effective moduli, radius and mass
     c : 2 √(5/6) β, β = −ln e/√(π² + ln² e), at most 1
     F_lim : elastic part of F_n (``elastic``: the viscous part integrates to zero over an impact, so gross sliding
@@ -167,19 +168,19 @@ def limiting_force(touch: Touch, c: Constants, F_n: float, chosen: Choices) -> f
 
 def sliding(touch: Touch, c: Constants, xi_old: Vec, F_lim: float, dt: float, chosen: Choices) -> tuple[Vec, Vec]:
     """Return the tangential force on i in N and the tangential displacement in m, Coulomb's limit kept."""
-    v_t = across(touch.velocity, touch.normal)
     k_t = 8.0 * c.G * contact_radius(touch)
-    xi = add(xi_old, scale(dt, v_t))
+    c_t = c.c_t * damping_root(touch) if chosen.damping else 0.0
+    xi = add(xi_old, across(touch.moved, touch.normal))
     spring = scale(k_t, xi)
-    dashpot = scale(c.c_t * damping_root(touch), v_t) if chosen.damping else ZERO
+    dashpot = scale(c_t, across(touch.velocity, touch.normal)) if chosen.damping else ZERO
     judged = spring if chosen.limit == MUSEN else add(spring, dashpot)
     size2, limit = dot(judged, judged), c.mu * F_lim
     slides = size2 > limit * limit
     limited = scale(limit / sqrt(size2) if slides else 1.0, judged)
     if chosen.limit == MUSEN:
         return (limited, scale(1.0 / k_t, limited)) if slides else (add(spring, dashpot), xi)
-    # while sliding, the spring keeps what the limit leaves after the dashpot
-    return limited, (scale(1.0 / k_t, sub(limited, dashpot)) if slides else xi)
+    # while sliding, spring and dashpot give way together: k_t ξ + c_t dξ/dt is the limit
+    return limited, (scale(1.0 / (k_t * dt + c_t), add(scale(dt, limited), scale(c_t, xi_old))) if slides else xi)
 
 
 def rolling(touch: Touch, c: Constants, F_lim: float, dt: float, chosen: Choices) -> tuple[Vec, Vec]:

@@ -138,7 +138,7 @@ def test_with_the_limit_musen_the_spring_alone_is_limited_and_the_dashpot_rests_
     told, kept = law.load(touch, xi)
     k_t = 8.0 * law.constants.G * math.sqrt(touch.radius * touch.overlap)
     limit = mu * abs(dot(told.force, touch.normal))
-    trial = add(xi, scale(DT, across(touch.velocity, touch.normal)))
+    trial = add(xi, across(touch.moved, touch.normal))
     assert k_t * norm(kept) <= limit * (1.0 + 1e-12)
     if k_t * norm(trial) > limit * (1.0 + 1e-12):
         assert norm(tangential(told, touch)) == pytest.approx(limit, rel=1e-10, abs=1e-13 * norm(told.force))
@@ -151,8 +151,11 @@ def test_without_friction_coefficient_there_is_no_tangential_force_at_all(limit,
     slippery = GLASS._replace(sliding_friction=0.0, rolling_friction=0.0)
     smooth = contact(slippery, Features(True, False, False), coulomb_limit=limit)
     rough = contact(slippery, Features(True, True, True), coulomb_limit=limit)
-    told = rough.load(touch)[0]
-    assert told.force == smooth.load(touch)[0].force
+    told, alone = rough.load(touch)[0], smooth.load(touch)[0]
+    if limit == "musen":  # its dashpot may see what rounding leaves across the normal where the spring sees nothing
+        assert_close(told.force, alone.force, 1e-12, norm(alone.force) + hertz(touch))
+    else:
+        assert told.force == alone.force
     assert (told.torque_i, told.torque_j) == (REST, REST)
 
 
@@ -165,7 +168,7 @@ def test_a_closed_tangential_path_without_slip_creates_no_energy(limit, touch, r
     xi, before, given_out, size = REST, REST, 0.0, 1e-300
     for rate in (*rates, back):
         v_t = across(rate, touch.normal)
-        told, xi = law.load(touch._replace(velocity=v_t), xi)
+        told, xi = law.load(touch._replace(velocity=v_t, moved=scale(DT, v_t)), xi)
         force = tangential(told, touch)
         mean = force if damped else scale(0.5, add(before, force))
         given_out += DT * dot(mean, v_t)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from clast.maths.vec3 import Vec
+from clast.maths.vec3 import Vec, scale
 from clast.parts.contact_law import Features, Touch
 from tests.support.contacts import GLASS, REST, contact
 
@@ -86,3 +86,22 @@ def test_gross_sliding_takes_the_impulse_of_coulomb(limit, cutoff):
     impulse = impact(law, slide=500.0)[2]
     reached = -impact(damped(e, tension_cutoff=True), until="letting_go")[1] / SPEED if cutoff else e
     assert -impulse == pytest.approx(mu * (1.0 + reached) * MASS * SPEED, rel=1e-4)
+
+
+@pytest.mark.parametrize("e", [1.0, 0.5, 0.1])
+def test_what_slides_through_an_impact_feels_the_friction_of_coulomb_at_every_instant(e):
+    """The dashpot is strongest where the limit is lowest, at touch: it must not wind the spring up backwards."""
+    mu, slide, steps = 0.4, 1.1, 400000
+    law = contact(GLASS._replace(restitution=e, sliding_friction=mu), Features(e < 1.0, True, False))
+    elastic = contact(features=Features(False, False, False))
+    dt, overlap, approach, xi = 1e-7 / SPEED, 0.0, SPEED, REST
+    for _ in range(steps):
+        overlap += 0.5 * dt * approach
+        if overlap <= 0.0:
+            break
+        here = touch(overlap, approach, slide)
+        told, xi = law.load(here._replace(moved=scale(dt, here.velocity)), xi, dt)
+        assert told.force[0] == pytest.approx(mu * abs(elastic.load(here)[0].force[2]), rel=1e-12)
+        approach += told.force[2] / MASS * dt
+        overlap += 0.5 * dt * approach
+    assert approach == pytest.approx(-e * SPEED, rel=0.02)

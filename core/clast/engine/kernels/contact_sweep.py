@@ -16,6 +16,7 @@ from .layout import (
     CONTACT_FREE,
     CONTACT_MI,
     CONTACT_MJ,
+    DRIFT,
     DV,
     FIRST,
     II,
@@ -31,6 +32,7 @@ from .layout import (
     RI,
     RJ,
     SECOND,
+    TURNING,
     WI,
     WJ,
     D,
@@ -80,6 +82,12 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
         for c in range(CONTACT_CONSTANTS):
             scratch[(CONTACT_FREE + c) * LANES + lane] = row[c]
     if HISTORY > 0:
+        pose, twist = particles.pose, particles.twist
+        for c in range(3):
+            scratch[(DRIFT + c) * LANES + lane] = twist[j, V + c] - twist[i, V + c]
+            scratch[(TURNING + c) * LANES + lane] = (
+                pose[i, RADIUS] * twist[i, W + c] + pose[j, RADIUS] * twist[j, W + c]
+            )
         known = pairs.touching[k] != 0
         for c in range(3):
             scratch[(NORMAL + c) * LANES + lane] = pairs.history[k, c] if known else 0.0
@@ -88,7 +96,7 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
 
 
 @inlined
-def read_touch(scratch: Floats, lane: int, at_contact_point: float) -> tuple[Touch, float, float]:
+def read_touch(scratch: Floats, lane: int, dt: float, at_contact_point: float) -> tuple[Touch, float, float]:
     """Return the contact of a lane, and the lever arms of its force about both centres."""
     d = vector(scratch, D, lane)
     r_i, r_j = scratch[RI * LANES + lane], scratch[RJ * LANES + lane]
@@ -96,8 +104,8 @@ def read_touch(scratch: Floats, lane: int, at_contact_point: float) -> tuple[Tou
     n = scale(1.0 / distance, d)
     overlap = r_i + r_j - distance
     share = 1.0 / (r_i + r_j)
-    lever_i = r_i - at_contact_point * overlap * r_i * share
-    lever_j = r_j - at_contact_point * overlap * r_j * share
+    lever = 1.0 - at_contact_point * overlap * share  # as a share of the radius
+    lever_i, lever_j = lever * r_i, lever * r_j
     if RESTS:
         overlap = overlap - scratch[REST * LANES + lane]
     velocity, w_i, w_j, per_mass, per_inertia = ZERO, ZERO, ZERO, 1.0, 1.0
@@ -108,14 +116,18 @@ def read_touch(scratch: Floats, lane: int, at_contact_point: float) -> tuple[Tou
         w_i, w_j = vector(scratch, WI, lane), vector(scratch, WJ, lane)
         velocity = sub(velocity, cross(add(scale(lever_i, w_i), scale(lever_j, w_j)), n))
         per_inertia = scratch[II * LANES + lane]
-    touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia)
+    moved = ZERO
+    if HISTORY > 0:
+        rolled = cross(scale(lever, vector(scratch, TURNING, lane)), n)
+        moved = scale(dt, sub(vector(scratch, DRIFT, lane), rolled))
+    touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia, moved)
     return touch, lever_i, lever_j
 
 
 @inlined
 def contact_lane(scratch: Floats, lane: int, shared: Any, dt: float, at_contact_point: float) -> None:
     """Compute the contact of one lane: force on j, moments on both, new history."""
-    touch, lever_i, lever_j = read_touch(scratch, lane, at_contact_point)
+    touch, lever_i, lever_j = read_touch(scratch, lane, dt, at_contact_point)
     n = touch.normal
     constants = shared if ONE_MATERIAL else read_contact_constants(scratch, CONTACT_FREE, lane)
     history = read_history(scratch, HISTORY_BASE, lane)

@@ -30,11 +30,16 @@ def row(table: Floats, k: int, column: int) -> Vec:
 
 
 @inlined
-def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec) -> Touch:
+def wall_touch(
+    particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec, dt: float
+) -> Touch:
     """Return the contact of particle k (i) with a wall (j)."""
     seen, body = particles.seen, particles.body
     radius = particles.pose[k, RADIUS]
-    velocity, spin = ZERO, ZERO
+    velocity, spin, moved = ZERO, ZERO, ZERO
+    if HISTORY > 0:
+        drift = sub(wall_velocity, row(particles.twist, k, V))
+        moved = scale(dt, sub(drift, cross(scale(lever, row(particles.twist, k, W)), n)))
     if VELOCITY_FORCES:
         velocity = sub(wall_velocity, row(seen, k, V))
     if SPIN:
@@ -51,6 +56,7 @@ def wall_touch(particles: Particles, k: int, distance: float, n: Vec, lever: flo
         radius_j=0.0,
         inverse_mass=body[k, INVERSE_MASS],
         inverse_inertia=body[k, INVERSE_INERTIA],
+        moved=moved,
     )
 
 
@@ -82,7 +88,7 @@ def sweep_walls(walls: Walls, pairs: WallPairs, particles: Particles, numbers: N
             continue
         n = near.normal
         lever = radius - numbers.lever * (radius - near.distance)
-        touch = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0))
+        touch = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), dt)
         history = fresh_history()
         if HISTORY > 0 and pairs.touching[p] != 0:
             spin = 0.5 * dot(touch.spin_i, n) * dt
