@@ -65,7 +65,7 @@ _NAMES: dict[Dimension, tuple[str, str]] = {
     (-3, 1, 0, 0): ("a density", "190 kg/m3"),
     (-1, 1, -2, 0): ("a stress", "5.6 MPa"),
     (1, 1, -2, 0): ("a force", "2 N"),
-    (2, 1, -2, 0): ("an energy or moment", "1 mJ"),
+    (2, 1, -2, 0): ("an energy or moment", "5 N mm"),
     (0, 1, -2, 0): ("a stiffness", "5 N/mm"),
     (0, 0, -1, 0): ("a rate", "5 1/s"),
 }

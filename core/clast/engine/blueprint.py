@@ -61,7 +61,8 @@ class ContactPlan:
 class Blueprint:
     """Everything the assembler needs to know; run-time numbers are not part of it.
 
-    ``chunked`` is whether the scene is cut into chunks that threads can share.
+    ``applied_loads`` is whether a constant force or torque acts on some particle, ``chunked`` whether the scene is cut
+    into chunks that threads can share.
     """
 
     integrator: Integrator
@@ -70,6 +71,7 @@ class Blueprint:
     walls: tuple[Wall, ...] = ()
     motions: tuple[Motion, ...] = ()
     body_forces: tuple[BodyForce, ...] = ()
+    applied_loads: bool = False
     chunked: bool = False
 
     @property
@@ -80,7 +82,7 @@ class Blueprint:
     @property
     def spin(self) -> bool:
         """Whether particles spin."""
-        return self.bonds is not None or self.friction
+        return self.bonds is not None or self.friction or self.applied_loads
 
     @property
     def friction(self) -> bool:

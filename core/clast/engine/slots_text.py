@@ -76,6 +76,7 @@ def _flags(plan: Blueprint) -> str:
         "RESTS": contacts is not None and contacts.rests,
         "WALLS": bool(plan.walls),
         "BODY_FORCES": bool(plan.body_forces),
+        "APPLIED_LOADS": plan.applied_loads,
         "ORIENTATION": plan.orientation,
         "SPIN": plan.spin,
         "VELOCITY_FORCES": plan.velocity_forces,

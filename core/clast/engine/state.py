@@ -18,6 +18,7 @@ class Particles(NamedTuple):
 
     ``seen`` holds the velocities that forces see; ``reference`` (n, 4) the positions at the last neighbour search and
     the squared distance from there at which the lists go stale;
+    ``applied`` is a constant load on each particle, (0, 8) where there is none;
     ``present`` (n,) is 0 for particles that left the domain.
     """
 
@@ -28,6 +29,7 @@ class Particles(NamedTuple):
     load: Floats
     acceleration: Floats
     reference: Floats
+    applied: Floats
     present: Bytes
 
 

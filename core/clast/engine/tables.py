@@ -18,6 +18,8 @@ from clast.engine.kernels.layout import (
     LANES,
     MATERIAL,
     RADIUS,
+    F,
+    M,
     Q,
     V,
     W,
@@ -36,9 +38,11 @@ def particle_tables(
     spin: Floats,
     material: Integers,
     prescribed: NDArray[np.bool_],
+    applied: Floats,
 ) -> Particles:
     """Return the tables of n particles: (n, 3) positions, velocities and spins, (n,) all else, SI.
 
+    ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows.
     Prescribed particles get no inverse mass and inertia, so nothing changes their velocity and spin.
     """
     n = len(position)
@@ -60,8 +64,16 @@ def particle_tables(
         load=np.zeros((n, 8)),
         acceleration=np.zeros((n, 8)),
         reference=np.zeros((n, 4)),
+        applied=_load_rows(applied),
         present=np.ones(n, np.uint8),
     )
+
+
+def _load_rows(loads: Floats) -> Floats:
+    """Return forces and torques, (n, 6), as rows of the particle tables, (n, 8)."""
+    rows = np.zeros((len(loads), 8))
+    rows[:, F : F + 3], rows[:, M : M + 3] = loads[:, :3], loads[:, 3:]
+    return rows
 
 
 def bond_table(

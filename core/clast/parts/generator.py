@@ -54,6 +54,8 @@ class Packing:
         Particles that keep their start velocity and spin whatever pushes them.
     grain : (n,) int64
         Number of the grain a particle belongs to, from 0; -1 for loose particles.
+    force, torque : (n, 3) float64 or None
+        What acts on each particle all the time, in N and N m; None where nothing does.
     bonds : BondList or None
         Bonds the generator knows; None leaves bonding to the scene's ``bonds.between``.
     relieved : bool
@@ -71,6 +73,8 @@ class Packing:
     spin: Floats
     prescribed: NDArray[np.bool_]
     grain: Ints
+    force: Floats | None = None
+    torque: Floats | None = None
     bonds: BondList | None = None
     relieved: bool = False
     report: Mapping[str, float | int | str] = field(default_factory=dict)

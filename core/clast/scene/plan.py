@@ -38,6 +38,7 @@ def blueprint(scene: Scene) -> Blueprint:
         walls=_distinct(wall.shape for wall in config.walls.values()),
         motions=_distinct(wall.motion for wall in config.walls.values() if wall.motion is not None),
         body_forces=tuple(chosen.part for chosen in config.body_forces),
+        applied_loads=len(_applied_loads(scene)) > 0,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
     )
 
@@ -132,6 +133,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
             scene.spin,
             scene.material,
             scene.prescribed,
+            _applied_loads(scene),
         ),
         bonds=bonds,
         pairs=empty_pairs(chunks, plan.history),
@@ -144,6 +146,12 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
         stale=np.zeros(len(chunks), np.uint8),
         scratch=np.zeros((len(chunks) - 1, _scratch_slots(plan) * LANES)),
     )
+
+
+def _applied_loads(scene: Scene) -> Floats:
+    """Return the constant force and torque on each particle, (n, 6); no rows where none acts."""
+    loads = np.column_stack([scene.force, scene.torque])
+    return loads if loads.any() else loads[:0]
 
 
 def _scratch_slots(plan: Blueprint) -> int:

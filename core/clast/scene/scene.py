@@ -47,6 +47,8 @@ class Scene:
     material, grain : (n,) int64
         Index into ``config.materials``, and number of the grain, −1 for loose particles.
     prescribed : (n,) bool
+    force, torque : (n, 3) float64
+        What acts on each particle all the time, in N and N m.
     ends : (m, 2) int64
         Particles of each bond, the lower number first.
     diameter, length : (m,) float64
@@ -68,6 +70,8 @@ class Scene:
     material: Integers
     grain: Integers
     prescribed: NDArray[np.bool_]
+    force: Floats
+    torque: Floats
     ends: Integers
     diameter: Floats
     length: Floats
@@ -137,6 +141,8 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
         material=material,
         grain=grain,
         prescribed=np.concatenate([packing.prescribed for packing in packings]),
+        force=np.concatenate([_vectors(packing.force, packing) for packing in packings]),
+        torque=np.concatenate([_vectors(packing.torque, packing) for packing in packings]),
         ends=np.sort(bonds.ends, axis=1),
         diameter=bonds.diameter,
         length=_lengths(bonds, position),
@@ -162,6 +168,11 @@ def _materials(config: SceneConfig, packings: list[Packing], origins: tuple[Orig
                 text = f"there is no material {name!r}; {suggestion(name, names)}"
                 raise config.problem(origin.place(origin.first + k), text)
     return np.array([names[name] for packing in packings for name in packing.material], np.int64)
+
+
+def _vectors(given: Floats | None, packing: Packing) -> Floats:
+    """Return a vector for every particle of a packing; zeros where none are given."""
+    return np.zeros((len(packing.radius), 3)) if given is None else given
 
 
 def _joined_grains(packings: list[Packing]) -> Integers:

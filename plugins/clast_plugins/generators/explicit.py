@@ -13,33 +13,47 @@ from pydantic_core import InitErrorDetails
 
 from clast import hookimpl
 from clast.config.problems import problem, refuse
-from clast.config.quantities import Length, Point, SpinVector, VelocityVector
+from clast.config.quantities import ForceVector, Length, MomentVector, Point, SpinVector, VelocityVector
 from clast.parts.generator import BondList, Generator, Packing
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.grains import connected_grains
 
-REST = (0.0, 0.0, 0.0)
+NOTHING = (0.0, 0.0, 0.0)
 
 
 class ExplicitParticle(Params):
-    """One particle; at rest unless a velocity or spin is given."""
+    """One particle; at rest unless a velocity or spin is given, free of loads unless a force or torque is."""
 
     position: Annotated[Point, Field(description="Centre")]
     radius: Annotated[Length, Field(gt=0, description="Radius")]
     material: Annotated[str | None, Field(description="Material, where it is not the common one")] = None
     velocity: Annotated[VelocityVector | None, Field(description="Start velocity")] = None
     spin: Annotated[SpinVector | None, Field(description="Start angular velocity")] = None
+    force: Annotated[ForceVector | None, Field(description="Force that acts on it all the time")] = None
+    torque: Annotated[MomentVector | None, Field(description="Torque that acts on it all the time")] = None
     prescribed: Annotated[bool, Field(description="Keeps its velocity and spin whatever pushes it")] = False
     fixed: Annotated[bool, Field(description="Stays where it is and does not turn")] = False
 
     @model_validator(mode="after")
     def _fixed_rests(self) -> ExplicitParticle:
-        if self.fixed and (self.velocity not in (None, REST) or self.spin not in (None, REST)):
+        if self.fixed and (self.velocity not in (None, NOTHING) or self.spin not in (None, NOTHING)):
             raise ValueError(
                 "'fixed: true' means no velocity and no spin, but one is given; "
                 "take 'prescribed: true' for a particle that keeps them, or remove one of the two"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _loads_can_move_it(self) -> ExplicitParticle:
+        if not (self.prescribed or self.fixed):
+            return self
+        for name in ("force", "torque"):
+            if getattr(self, name) not in (None, NOTHING):
+                held = "fixed" if self.fixed else "prescribed"
+                raise ValueError(
+                    f"'{held}: true' means that no load moves the particle, but a {name} is given; remove one of them"
+                )
         return self
 
 
@@ -97,9 +111,11 @@ def generate(params: Explicit, folder: Path) -> Packing:
         position=np.array([p.position for p in particles]),
         radius=np.array([p.radius for p in particles]),
         material=[p.material or params.material or "" for p in particles],
-        velocity=np.array([p.velocity or REST for p in particles]),
-        spin=np.array([p.spin or REST for p in particles]),
+        velocity=np.array([p.velocity or NOTHING for p in particles]),
+        spin=np.array([p.spin or NOTHING for p in particles]),
         prescribed=np.array([p.prescribed or p.fixed for p in particles]),
+        force=np.array([p.force or NOTHING for p in particles]),
+        torque=np.array([p.torque or NOTHING for p in particles]),
         grain=connected_grains(len(particles), bonds.ends),
         bonds=bonds if params.bonds else None,
         report={"particles": len(particles), "bonds_written": len(params.bonds)},

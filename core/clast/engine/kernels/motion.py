@@ -10,6 +10,7 @@ from clast.parts.integrator import Stage
 from .lanes import put, vector
 from .layout import INVERSE_INERTIA, INVERSE_MASS, LANES, TURN_Q, TURN_W, F, M, Q, V, W, X
 from .slots import (
+    APPLIED_LOADS,
     BODY_FORCES,
     ORIENTATION,
     SPIN,
@@ -70,6 +71,13 @@ def predict(particles: Particles, k: int, time: float) -> None:
 
 
 @inlined
+def begin_load(particles: Particles, k: int) -> None:
+    """Forget the loads on particle k but those that act on it all the time."""
+    for c in range(8):
+        particles.load[k, c] = particles.applied[k, c] if APPLIED_LOADS else 0.0
+
+
+@inlined
 def strayed(particles: Particles, k: int) -> bool:
     """Tell whether particle k is too far from where neighbours were searched, or nowhere."""
     pose, reference = particles.pose, particles.reference
@@ -83,7 +91,7 @@ def strayed(particles: Particles, k: int) -> bool:
 def move_before_forces(
     particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats
 ) -> bool:
-    """Kick and drift to the force evaluation, clear loads; tell whether neighbour lists are stale."""
+    """Kick and drift to the force evaluation, begin the loads; tell whether neighbour lists are stale."""
     dt = numbers.dt
     stale = False
     for k in range(begin, end):
@@ -93,8 +101,7 @@ def move_before_forces(
             drift(particles, k, stage.drift_before * dt)
         if VELOCITY_FORCES:
             predict(particles, k, stage.predict * dt)
-        for c in range(8):
-            particles.load[k, c] = 0.0
+        begin_load(particles, k)
         if strayed(particles, k):
             stale = True
     if ORIENTATION and stage.drift_before != 0.0:

@@ -25,6 +25,7 @@ ONE_MATERIAL = True
 RESTS = False
 WALLS = False
 BODY_FORCES = False
+APPLIED_LOADS = False
 ORIENTATION = False
 SPIN = False
 VELOCITY_FORCES = False
