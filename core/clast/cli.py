@@ -155,3 +155,38 @@ def view(folder: Path) -> None:
     from clast import view_command
 
     view_command.view(folder)
+
+
+@main.command()
+@click.argument("cases", metavar="[CASE]...", nargs=-1)
+@click.option("--family", "families", multiple=True, metavar="NAME", help="All cases of a family.")
+@click.option("--list", "listed", is_flag=True, help="List all cases.")
+@click.option("--contact-law", metavar="NAME", help="Put this contact law in the place of Clast's own.")
+@click.option("--bond-model", metavar="NAME", help="Put this bond model there.")
+@click.option("--integrator", metavar="NAME", help="Put this integrator there.")
+@_plugin
+@_set
+@click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
+@click.pass_context
+def verify(
+    ctx: click.Context,
+    /,
+    cases: tuple[str, ...],
+    families: tuple[str, ...],
+    listed: bool,
+    files: tuple[Path, ...],
+    overrides: tuple[str, ...],
+    as_json: bool,
+    **parts: str | None,
+) -> None:
+    """Run scenes with known answers, all or each CASE, and compare; exit code 1 where one fails."""
+    from clast import verify_command
+    from clast.verification.replacement import Replacement
+
+    if listed:
+        verify_command.print_list()
+        return
+    chosen_parts = {kind: name for kind, name in parts.items() if name is not None}
+    replacement = Replacement(chosen_parts, files, overrides)
+    if not verify_command.verify(cases, families, replacement, as_json):
+        ctx.exit(1)

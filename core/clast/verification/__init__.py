@@ -1,0 +1,1 @@
+"""Verification: scenes with known answers, run through the whole program and compared."""

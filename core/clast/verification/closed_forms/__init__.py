@@ -1,0 +1,1 @@
+"""Closed forms that cases are compared with; each names its source."""

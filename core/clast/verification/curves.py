@@ -1,0 +1,46 @@
+"""Numbers read off curves that are known at points: tops, zeros, orders of convergence."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def peak(y: Floats) -> float:
+    """Return the top of the parabola through the largest of some evenly spaced numbers and its neighbours.
+
+    >>> round(peak(np.cos(np.linspace(-0.3, 0.4, 8))), 4)
+    1.0
+    """
+    k = int(np.argmax(y))
+    if k in (0, len(y) - 1):
+        return float(y[k])
+    before, top, after = (float(each) for each in y[k - 1 : k + 2])
+    bend = before - 2.0 * top + after
+    return top - (after - before) ** 2 / (8.0 * bend) if bend < 0.0 else top
+
+
+def zero(t: Floats, y: Floats) -> float:
+    """Return when a curve last falls through zero, by a straight line between its points; nan if it never does.
+
+    >>> zero(np.array([0.0, 1.0, 2.0]), np.array([2.0, 1.0, -1.0]))
+    1.5
+    """
+    falls = np.nonzero((y[:-1] > 0.0) & (y[1:] <= 0.0))[0]
+    if not len(falls):
+        return float("nan")
+    k = int(falls[-1])
+    return float(t[k] + (t[k + 1] - t[k]) * y[k] / (y[k] - y[k + 1]))
+
+
+def order(steps: Any, errors: Any) -> float:
+    """Return p of errors ∝ steps^-p, by least squares in logarithms.
+
+    >>> round(order([10, 20, 40], [1.0, 0.25, 0.0625]), 6)
+    2.0
+    """
+    return -float(np.polyfit(np.log(np.asarray(steps, float)), np.log(np.asarray(errors, float)), 1)[0])

@@ -1,0 +1,1 @@
+"""Families of cases, one file each; ``clast.verification.suite`` lists them."""

@@ -1,0 +1,51 @@
+"""What closed forms ask of a scene's parts; each function tells why a case would say nothing, or None."""
+
+from __future__ import annotations
+
+from math import isclose
+
+from clast.config.scene import SceneConfig
+from clast.parts.contact_law import MaterialPair
+
+
+def _pair(scene: SceneConfig) -> MaterialPair:
+    material = next(iter(scene.materials.values()))
+    E, nu = material.young_modulus, material.poisson_ratio
+    return MaterialPair(E, nu, E, nu, restitution=0.5, sliding_friction=0.3, rolling_friction=0.0)
+
+
+def hertzian(scene: SceneConfig) -> str | None:
+    """Ask for a contact law whose stiffness, as it declares it, grows with the root of the overlap."""
+    assert scene.contacts is not None
+    law = scene.contacts.law
+    constants = law.part.constants(law.params, _pair(scene))
+    thin, thick = (law.part.stiffness(constants, 1e-3, overlap) for overlap in (1e-6, 4e-6))
+    if thin > 0.0 and isclose(thick / thin, 2.0, rel_tol=1e-3):
+        return None
+    return f"the stiffness of {law.name!r} does not grow with the root of the overlap, as Hertz's does"
+
+
+def sticks(scene: SceneConfig) -> str | None:
+    """Ask for a contact law that remembers tangential displacements."""
+    assert scene.contacts is not None
+    law = scene.contacts.law
+    if law.part.History is not None:
+        return None
+    return f"{law.name!r} remembers nothing of a contact, so it has no friction that can hold"
+
+
+def full_restitution(scene: SceneConfig) -> str | None:
+    """Ask that damped contacts may pull, without which the coefficient of restitution is not reached exactly."""
+    assert scene.contacts is not None
+    if not getattr(scene.contacts.law.params, "tension_cutoff", False):
+        return None
+    return "with tension_cutoff the coefficient of restitution is larger than the one written"
+
+
+def coulomb_on_elastic_force(scene: SceneConfig) -> str | None:
+    """Ask that friction is limited by the elastic force, whose impulse is the whole normal impulse."""
+    assert scene.contacts is not None
+    limit = getattr(scene.contacts.law.params, "coulomb_limit", "elastic")
+    if limit == "elastic":
+        return None
+    return f"with coulomb_limit {limit} a sliding impact takes another impulse than mu times the normal one"

@@ -1,0 +1,91 @@
+"""``clast verify``: the table, the choice of cases, and laws of a third party."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from clast.cli import main
+
+LAWS = Path(__file__).with_name("laws.py")
+LINEAR = Path(__file__).parents[2] / "docs" / "examples" / "my_law.py"
+
+
+def verify(*arguments):
+    return CliRunner().invoke(main, ["verify", *(str(each) for each in arguments)])
+
+
+def failed(law, case):
+    """Return the quantities of a case that a law of the tests gets wrong."""
+    result = verify(case, "--plugin", LAWS, "--contact-law", law, "--json")
+    (outcome,) = json.loads(result.stdout)
+    assert result.exit_code == (1 if outcome["verdict"] == "failed" else 0)
+    return {found["quantity"] for found in outcome["findings"] if not found["passed"]}
+
+
+def test_the_table_has_numbers_errors_bounds_and_a_total():
+    result = verify("chung_ooi_2")
+    assert result.exit_code == 0
+    head, first, *_, last = result.stdout.splitlines()
+    assert head.split() == ["case", "quantity", "expected", "got", "error", "bound", "time"]
+    assert first.startswith("chung_ooi_2  magnesium alloy: peak force, N")
+    assert "7232.68" in first
+    assert last.startswith("1 cases: 1 passed;")
+
+
+def test_cases_are_listed_with_their_scenes():
+    told = verify("--list").stdout
+    assert "chung_ooi_1" in told
+    assert "chung_ooi_3_restitution.yaml" in told
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["chung_ooi_33"], "no case is named 'chung_ooi_33'; did you mean 'chung_ooi_3'?"),
+        (["--family", "impact"], "no family is named 'impact'; did you mean 'impacts'?"),
+        (["chung_ooi_1", "--contact-law", "herz"], "no contact law is named 'herz'; known are hertz_mindlin"),
+        (
+            ["chung_ooi_1", "--plugin", LINEAR, "--contact-law", "linear"],
+            "--contact-law linear: contacts.law.stiffness: this key is missing: Stiffness k",
+        ),
+        (
+            ["chung_ooi_1", "--bond-model", "elastic"],
+            "--bond-model elastic: none of the chosen cases has bonds; 'clast verify --list' shows all",
+        ),
+        (
+            ["chung_ooi_1", "--set", "bonds.damping=0.1"],
+            "--set bonds.damping=0.1: none of the chosen cases has bonds; 'clast verify --list' shows all",
+        ),
+    ],
+)
+def test_what_cannot_be_done_is_said_before_anything_runs(arguments, message):
+    result = verify(*arguments)
+    assert (result.exit_code, result.stdout, result.stderr) == (2, "", message + "\n")
+
+
+def test_the_law_of_a_plugin_is_put_through_the_cases_by_name():
+    assert failed("faithful", "chung_ooi_1") == set()
+
+
+def test_a_stiffness_wrong_by_2_percent_is_caught():
+    """Force and overlap go with the power 2/5 of the stiffness: 0.8 %, where 0.1 % is allowed."""
+    quantities = ("peak force, N", "peak overlap, m", "duration, s")
+    assert failed("too_stiff", "chung_ooi_1") == {f"{m}: {q}" for m in ("limestone", "glass") for q in quantities}
+    assert len(failed("too_stiff", "chung_ooi_2")) == 6
+
+
+def test_a_damping_wrong_by_2_percent_is_caught():
+    wrong = failed("underdamped", "chung_ooi_3")
+    assert "v'/v at e = 0.2, 400 steps per contact" in wrong
+    assert "v'/v at e = 1, 400 steps per contact" not in wrong
+
+
+def test_a_case_that_says_nothing_about_a_law_says_why():
+    arguments = ("--plugin", LINEAR, "--contact-law", "linear", "--set", "contacts.law.stiffness=1e6")
+    result = verify("chung_ooi_1", *arguments)
+    assert result.exit_code == 0
+    assert "not applicable: the stiffness of 'linear' does not grow" in " ".join(result.stdout.split())
+    result = verify("chung_ooi_3", "--set", "contacts.law.tension_cutoff=true")
+    assert "not applicable: with tension_cutoff" in result.stdout
