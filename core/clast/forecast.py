@@ -23,7 +23,7 @@ from clast.scene.start import check_contacts, check_start, check_tracks
 
 # seconds a step, measured on one core of an AMD EPYC (family 25, model 1) with grains of 361 to 17 700 primaries:
 # 30 ns a bond where everything fits into the cache, 45 ns where not
-PARTICLE_SECONDS, BOND_SECONDS, PAIR_SECONDS = 12e-9, 30e-9, 12e-9
+PARTICLE_SECONDS, BOND_SECONDS, PAIR_SECONDS = 12e-9, 40e-9, 12e-9
 # pairs that may touch, beside the bonded ones: half the coordination number of a loose random packing
 PAIRS_PER_PARTICLE = 3.0
 # taken where nobody can tell
