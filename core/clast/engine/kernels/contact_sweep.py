@@ -207,7 +207,7 @@ def apply(
         gather(particles, pairs, active[lane], numbers, scratch, lane)
     material = int(particles.body[0, MATERIAL])
     shared = row_constants(numbers.contact_table[material, material])
-    for lane in range(count):
+    for lane in range(LANES):  # always all: a loop of fixed length vectorises
         contact_lane(scratch, lane, shared, dt, numbers.lever)
     for lane in range(count):
         scatter(particles, pairs, active[lane], scratch, lane)
