@@ -12,7 +12,7 @@ from clast.engine.neighbours import choose_slack, find_pairs
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import World
 from clast.engine.tables import empty_pairs
-from clast.engine.time_step import Limits, choose_step, limits
+from clast.engine.time_step import Limits, choose_step, limits, ruling
 from clast.parts.generator import BondList
 from clast.scene.compression import Gauge
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
@@ -22,6 +22,14 @@ from clast.scene.start import check_start
 from clast.simulation import choose_skin
 
 Rows = list[tuple[str, str]]
+LIMIT_NAMES = {
+    "spectral": "true limit: bonds, contacts, walls, with damping",
+    "network": "bond network 2/omega_max, undamped",
+    "local": "bound of every particle by itself",
+    "bond": "single bond, Eqs. 16-17",
+    "rayleigh": "Rayleigh, Eq. 15",
+    "contact": "a twentieth of an impact",
+}
 
 
 def report(config: SceneConfig) -> str:
@@ -89,14 +97,12 @@ def generator_rows(told: object) -> Rows:
 
 def step_rows(scene: Scene, found: Limits, step: float) -> Rows:
     """Return every limit, the step that was chosen, and how far it is from instability."""
-    names = {
-        "bond network 2/omega_max": found.network,
-        "the same with damping": found.network * found.damping,
-        "single bond, Eqs. 16-17": found.bond,
-        "Rayleigh, Eq. 15": found.rayleigh,
-        "Hertz impact at 1 m/s, 1/20": found.contact,
-    }
-    rows = [(name, f"{value:.4g} s") for name, value in names.items() if isfinite(value)]
+    rules = ruling(scene.config, found)
+    rows = [
+        (text, f"{getattr(found, name):.4g} s" + (", which rules" if name == rules else ""))
+        for name, text in LIMIT_NAMES.items()
+        if isfinite(getattr(found, name))
+    ]
     rule = scene.config.time.step
     origin = "fixed" if isinstance(rule, float) else f"rule '{rule.rule}', factor {rule.factor:g}"
     rows.append(("step taken", f"{step:.4g} s ({origin})"))

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from clast.config.choice import Chosen, PartOf, default_part, registry_of
-from clast.config.quantities import Density, Length, Number, Point, Stress, Time
+from clast.config.quantities import Density, Length, Number, Point, Stress, Time, Velocity
 from clast.parts.params import Params
 
 DEFAULT_WRITERS = ("recording", "vtk", "figure", "picture")
@@ -141,11 +141,30 @@ class NeighbourSettings(Params):
     ] = "auto"
 
 
+IMPACT_SPEED = 1.0
+STEP_FACTORS = {"spectral": 0.8, "paper": 0.1}
+
+
 class StepRule(Params):
     """Time step from a rule."""
 
-    rule: Annotated[Literal["paper"], Field(description="Which rule")]
-    factor: Annotated[Number, Field(gt=0, description="Share of the rule's limit")] = 0.1
+    rule: Annotated[
+        Literal["spectral", "paper"],
+        Field(description="Limit that the step is taken from: the true one, or that of single bonds (Eqs. 14-17)"),
+    ] = "spectral"
+    factor: Annotated[
+        Number, Field(gt=0, description="Share of the rule's limit; by default 0.8 for spectral, 0.1 for paper")
+    ] = STEP_FACTORS["spectral"]
+    impact_speed: Annotated[
+        Velocity, Field(gt=0, description="Closing speed of impacts that spectral resolves with 20 steps")
+    ] = IMPACT_SPEED
+
+    @model_validator(mode="before")
+    @classmethod
+    def _factor_of_the_rule(cls, given: Any) -> Any:
+        if isinstance(given, dict) and given.get("rule") in STEP_FACTORS:
+            return {"factor": STEP_FACTORS[given["rule"]]} | given
+        return given
 
 
 class End(Params):
@@ -175,7 +194,7 @@ class TimeSettings(Params):
         Annotated[StepRule, Tag("<rule>")] | Annotated[Time, Field(gt=0), Tag("<time>")],
         Discriminator(_step_branch),
         Field(description="A fixed time step, or a rule"),
-    ] = StepRule(rule="paper")
+    ] = StepRule(rule="spectral")
     mass_scaling: Annotated[Number, Field(ge=1, description="Factor on all masses")] = 1.0
     end: Annotated[End, Field(description="When the run ends")]
     allow_unstable: Annotated[bool, Field(description="Allow a time step above the limit")] = False

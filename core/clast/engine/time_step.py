@@ -1,4 +1,9 @@
-"""Time step limits: how large a step the bonds and contacts of a scene allow."""
+"""Time step: how large a step bonds, contacts and walls of a scene allow, and which one its rule takes.
+
+The true limit of a scene is ``limits(scene, blueprint(scene)).spectral``, with ``scene`` from
+:func:`clast.scene.scene.build_scene` and ``blueprint`` from :mod:`clast.scene.plan`; that of a scene as it runs is
+``Simulation.stable_step()``.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +12,18 @@ from typing import NamedTuple
 import numpy as np
 
 from clast.config.scene import SceneConfig
+from clast.config.sections import IMPACT_SPEED, StepRule
 from clast.engine.blueprint import Blueprint
-from clast.scene.plan import bond_stiffness, material_pairs
+from clast.engine.impact import impact_duration
+from clast.engine.records import build, width
+from clast.maths.vec3 import ZERO
+from clast.parts.contact_law import Touch
+from clast.scene.plan import blueprint, bond_stiffness, material_pairs
 from clast.scene.scene import Scene
-
-IMPACT_SPEED = 1.0
 
 
 class Limits(NamedTuple):
-    """Limits of the time step in s; infinite where they do not apply.
+    """Limits of the time step in s at the start of a scene; infinite where they do not apply.
 
     Attributes
     ----------
@@ -24,19 +32,21 @@ class Limits(NamedTuple):
     bond : float
         2 √(m_min/K_max) of the stiffest bond, Eqs. 16–17.
     network : float
-        2/ω_max of the undeformed bond network, every degree of freedom included: the exact limit of an undamped
-        elastic agglomerate.
+        2/ω_max of the bonds alone, without damping.
+    local : float
+        A bound for every particle by itself; never above ``spectral``.
+    spectral : float
+        The true limit of bonds, contacts and walls as they stand, with their damping and the scene's integrator.
     contact : float
-        A twentieth of the duration of a Hertz impact of the two lightest particles at 1 m/s: an accuracy bound.
-    damping : float
-        Share of ``network`` that the integrator keeps with the scene's bond damping.
+        A twentieth of the duration of the shortest impact: what accuracy asks for.
     """
 
     rayleigh: float
     bond: float
     network: float
+    local: float
+    spectral: float
     contact: float
-    damping: float
 
     @property
     def paper(self) -> float:
@@ -45,20 +55,39 @@ class Limits(NamedTuple):
 
     @property
     def stable(self) -> float:
-        """The step beyond which bonds are unstable, or an impact at 1 m/s is over within two steps."""
-        return min(self.network * self.damping, 10.0 * self.contact)
+        """The step beyond which the scene is unstable, or an impact is over within two steps."""
+        return min(self.spectral, 10.0 * self.contact)
 
 
 def limits(scene: Scene, plan: Blueprint) -> Limits:
     """Return all limits of a scene at its start."""
-    zeta = scene.config.bonds.damping if scene.config.bonds else 0.0
+    from clast.engine.damped_step import stable_step
+    from clast.engine.springs import bodies_at_start, bond_springs, springs_at_start
+    from clast.engine.vibration import largest_eigenvalue
+
+    bodies, springs = bodies_at_start(scene), springs_at_start(scene, plan)
+    bonds = bond_springs(scene, bodies, np.ones(len(scene.ends), bool))
+    factor = plan.integrator.damping_factor
     return Limits(
         rayleigh=rayleigh_limit(scene),
         bond=bond_limit(scene),
-        network=network_limit(scene),
+        network=stable_step(lambda per_time: largest_eigenvalue(bonds, bodies), lambda zeta: 1.0),
+        local=local_limit(scene),
+        spectral=stable_step(lambda per_time: largest_eigenvalue(springs, bodies, per_time), factor),
         contact=contact_limit(scene),
-        damping=plan.integrator.damping_factor(zeta),
     )
+
+
+def local_limit(scene: Scene) -> float:
+    """Return a bound that is never above the true limit of what holds at the start, for one particle at a time."""
+    from clast.engine.damped_step import stable_step
+    from clast.engine.local_bounds import local_bounds
+    from clast.engine.springs import bodies_at_start, springs_at_start
+
+    plan = blueprint(scene)
+    bodies, springs = bodies_at_start(scene), springs_at_start(scene, plan)
+    factor = plan.integrator.damping_factor
+    return stable_step(lambda per_time: float(local_bounds(springs, bodies, per_time).max()), factor)
 
 
 def rayleigh_limit(scene: Scene) -> float:
@@ -83,25 +112,41 @@ def bond_limit(scene: Scene) -> float:
 
 
 def contact_limit(scene: Scene) -> float:
-    """Return a twentieth of 2.94 (5 m*/(4 k_H))^0.4 v^-0.2 for the two lightest particles at 1 m/s."""
-    if scene.config.contacts is None:
+    """Return a twentieth of the shortest impact: of the smallest particles of two materials, or of one and a wall.
+
+    The closing speed is the rule's ``impact_speed``.
+    """
+    plan = blueprint(scene)
+    if plan.contacts is None or scene.config.contacts is None:
         return np.inf
-    pairs = [pair for i, j, pair in material_pairs(scene) if i == j]
-    if not pairs:
-        return np.inf
-    E = max(pair.young_modulus_i / (2.0 * (1.0 - pair.poisson_ratio_i**2)) for pair in pairs)
-    k_hertz = 4.0 / 3.0 * E * np.sqrt(0.5 * scene.radius.min())
-    return float(0.05 * 2.94 * (5.0 * 0.5 * scene.mass.min() / (4.0 * k_hertz)) ** 0.4 * IMPACT_SPEED**-0.2)
+    law, chosen, choices = plan.contacts.law, scene.config.contacts.law, plan.contacts.choices
+    rule = scene.config.time.step
+    speed = rule.impact_speed if isinstance(rule, StepRule) else IMPACT_SPEED
+    history = None if law.History is None else build(law.History, [0.0] * width(law.History))
+    walls = {wall.material for wall in scene.config.walls.values()}
+    shortest = np.inf
+    for i, j, pair in material_pairs(scene):
+        constants = law.constants(chosen.params, pair)
+        partners = [smallest(scene, j)] if j in scene.material and len(scene.radius) > 1 else []
+        partners += [(np.inf, np.inf)] if list(scene.config.materials)[j] in walls else []
+        r, m = smallest(scene, i)
+        for r_j, m_j in partners:
+            radius, mass = 1.0 / (1.0 / r + 1.0 / r_j), 1.0 / (1.0 / m + 1.0 / m_j)
+            wall = r_j if r_j < np.inf else 0.0
+            touch = Touch(0.0, (0.0, 0.0, 1.0), ZERO, ZERO, ZERO, radius, r, wall, 1.0 / mass, 1.0)
+
+            def energy(overlap: float, touch: Touch = touch, constants: object = constants) -> float:
+                return float(law.energy(touch._replace(overlap=overlap), constants, history, choices))
+
+            shortest = min(shortest, impact_duration(energy, mass, speed, radius))
+    return 0.05 * float(shortest)
 
 
-def network_limit(scene: Scene) -> float:
-    """Return 2/ω_max of the undeformed bonds, from the largest eigenvalue of M⁻½ K M⁻½."""
-    if len(scene.ends) == 0:
-        return np.inf
-    from clast.engine.network import largest_frequency
-
-    frequency = largest_frequency(scene)
-    return float(2.0 / frequency) if frequency > 0.0 else np.inf
+def smallest(scene: Scene, material: int) -> tuple[float, float]:
+    """Return radius and mass of the lightest particle of a material, in m and kg."""
+    mine = np.nonzero(scene.material == material)[0]
+    k = mine[np.argmin(scene.mass[mine])]
+    return float(scene.radius[k]), float(scene.mass[k])
 
 
 def pair_limit(scene: Scene) -> float:
@@ -122,11 +167,11 @@ def choose_step(scene: Scene, found: Limits) -> float:
     Raises
     ------
     ConfigError
-        If a fixed step is above the limit, or no rule gives a finite one.
+        If it is above the limit, or no rule gives a finite one.
     """
-    step = asked_step(scene.config, found.paper)
+    step = asked_step(scene.config, found.paper, found.spectral, found.contact)
     if step > found.stable and not scene.config.time.allow_unstable:
-        cause = "bonds" if found.network * found.damping == found.stable else "contacts"
+        cause = "bonds and contacts" if found.spectral == found.stable else "impacts"
         raise scene.config.problem(
             ("time", "step"),
             f"{step:.4g} s is above the stability limit of the {cause}, {found.stable:.4g} s; take a smaller step, "
@@ -135,8 +180,8 @@ def choose_step(scene: Scene, found: Limits) -> float:
     return step
 
 
-def asked_step(config: SceneConfig, limit: float) -> float:
-    """Return the fixed step of a config, or what its rule makes of the paper's limit, in s.
+def asked_step(config: SceneConfig, paper: float, spectral: float, contact: float) -> float:
+    """Return the fixed step of a config, or what its rule makes of the limits, in s.
 
     Raises
     ------
@@ -146,7 +191,18 @@ def asked_step(config: SceneConfig, limit: float) -> float:
     rule = config.time.step
     if isinstance(rule, float):
         return rule
-    if not np.isfinite(limit):
+    step = rule.factor * paper if rule.rule == "paper" else min(rule.factor * spectral, contact)
+    if not np.isfinite(step):
         text = "no limit applies to this scene, so the rule gives no step; write one, for instance 'step: 1e-6 s'"
         raise config.problem(("time", "step"), text)
-    return rule.factor * limit
+    return float(step)
+
+
+def ruling(config: SceneConfig, found: Limits) -> str | None:
+    """Return the name of the limit that a rule takes its step from; None where the step is fixed."""
+    rule = config.time.step
+    if isinstance(rule, float):
+        return None
+    if rule.rule == "paper":
+        return "bond" if found.bond < found.rayleigh else "rayleigh"
+    return "contact" if found.contact < rule.factor * found.spectral else "spectral"

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.sources import source_files
+from clast.engine.time_step import ruling
 from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
 from clast.simulation import Simulation
@@ -56,6 +57,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "generators": {name: dict(report) for name, report in scene.report.items()},
         "time_step_s": simulation.dt,
         "time_step_limits_s": limits_table(simulation),
+        "time_step_ruled_by": ruling(simulation.config, simulation.limits),
         "steps": simulation.step,
         "simulated_time_s": simulation.time,
         "wall_time_s": wall_time,

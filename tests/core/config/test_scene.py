@@ -45,7 +45,8 @@ def test_defaults_are_those_of_the_contract(load):
 
 def test_the_time_step_is_a_time_or_a_rule(load):
     assert load().time.step == 5e-7
-    assert load(("step: 5e-7", "mass_scaling: 2")).time.step == StepRule(rule="paper", factor=0.1)
+    assert load(("step: 5e-7", "mass_scaling: 2")).time.step == StepRule(rule="spectral", factor=0.8)
+    assert load(("5e-7", "{rule: paper}")).time.step.factor == 0.1
     assert load(("5e-7", "{rule: paper, factor: 0.3}")).time.step.factor == 0.3
     assert "time.step: must be greater than 0" in _said(load, ("5e-7", "0"))
     assert "time.step.rule: 'papper' is not allowed; did you mean 'paper'?" in _said(load, ("5e-7", "{rule: papper}"))

@@ -1,0 +1,235 @@
+"""Springs: bonds, contacts and walls as they stand, linearised for the limits of the time step."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.engine.blueprint import Blueprint
+from clast.engine.response import respond
+from clast.scene.bonding import close_pairs
+from clast.scene.plan import bond_stiffness, damping_coefficients, material_pairs, wall_shapes
+from clast.scene.scene import Scene
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class Springs(NamedTuple):
+    """Springs and dashpots between n bodies; a wall is body number n, which nothing moves.
+
+    The measures of a spring between i and j are u_j − u_i + normal x (arm_i θ_i + arm_j θ_j), along the normal and
+    across it, and θ_j − θ_i likewise, for small displacements u and rotations θ.
+
+    Attributes
+    ----------
+    first, second : (s,) int64
+    normal : (s, 3) float64
+        From first to second.
+    arms : (s, 2) float64
+        From the centres to where the force acts, in m.
+    stiffness, damping : (s, 4) float64
+        Against stretch, shear (N/m, N s/m), twist and bending (N m, N m s).
+    """
+
+    first: Integers
+    second: Integers
+    normal: Floats
+    arms: Floats
+    stiffness: Floats
+    damping: Floats
+
+
+class Bodies(NamedTuple):
+    """What springs hold together: n particles, where they are and how heavy.
+
+    Attributes
+    ----------
+    position : (n, 3) float64
+    radius, inverse_mass, inverse_inertia : (n,) float64
+    """
+
+    position: Floats
+    radius: Floats
+    inverse_mass: Floats
+    inverse_inertia: Floats
+
+
+def bodies_at_start(scene: Scene) -> Bodies:
+    """Return the particles of a scene; prescribed ones have no inverse mass."""
+    per_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)
+    return Bodies(scene.position, scene.radius, per_mass, 2.5 * per_mass / scene.radius**2)
+
+
+def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
+    """Return everything that holds or touches at the start of a scene."""
+    bodies = bodies_at_start(scene)
+    pairs = close_pairs(scene.position, scene.radius, 0.0)[0]
+    near = np.argwhere(np.ones((len(scene.config.walls), len(scene.radius)), bool))
+    everything = np.ones(len(scene.ends), bool)
+    still = np.zeros((len(scene.config.walls), 3))
+    return joined(
+        bond_springs(scene, bodies, everything),
+        contact_springs(scene, plan, bodies, pairs, everything),
+        wall_springs(scene, plan, bodies, near, still),
+    )
+
+
+def joined(*each: Springs) -> Springs:
+    """Return several tables of springs as one."""
+    return Springs(*(np.concatenate(columns) for columns in zip(*each, strict=True)))
+
+
+def chosen(springs: Springs, rows: slice) -> Springs:
+    """Return some rows of a table of springs."""
+    return Springs(
+        springs.first[rows],
+        springs.second[rows],
+        springs.normal[rows],
+        springs.arms[rows],
+        springs.stiffness[rows],
+        springs.damping[rows],
+    )
+
+
+def bond_springs(scene: Scene, bodies: Bodies, intact: NDArray[np.bool_]) -> Springs:
+    """Return the springs of the bonds that hold, with their elastic stiffness: no law makes them stiffer."""
+    if not intact.any():
+        return no_springs()
+    first, second = scene.ends[intact].T
+    d = bodies.position[second] - bodies.position[first]
+    length = np.linalg.norm(d, axis=1)
+    size = len(scene.ends)
+    stiffness = np.column_stack([np.broadcast_to(k, size) for k in bond_stiffness(scene)])
+    normal = d / np.where(length > 0.0, length, 1.0)[:, None]
+    arms = 0.5 * np.column_stack([length, length])
+    return Springs(first, second, normal, arms, stiffness[intact], damping_coefficients(scene)[intact])
+
+
+def contact_springs(
+    scene: Scene, plan: Blueprint, bodies: Bodies, pairs: Integers, intact: NDArray[np.bool_]
+) -> Springs:
+    """Return the springs of the pairs (p, 2) that touch; bonded ones only where the scene lets them."""
+    if plan.contacts is None or len(pairs) == 0:
+        return no_springs()
+    if not plan.contacts.bonded_pairs:
+        bonded = pair_numbers(scene, scene.ends[intact])
+        pairs = pairs[~np.isin(pair_numbers(scene, pairs), bonded)]
+    i, j = pairs.T
+    d = bodies.position[j] - bodies.position[i]
+    distance = np.sqrt(d[:, 0] ** 2 + d[:, 1] ** 2 + d[:, 2] ** 2)
+    reach = bodies.radius[i] + bodies.radius[j]
+    overlap = reach - distance - overlaps_at_rest(scene, pairs)
+    touching = (overlap > 0.0) & (distance > 0.0) & (bodies.inverse_mass[i] + bodies.inverse_mass[j] > 0.0)
+    i, j, overlap, reach = i[touching], j[touching], overlap[touching], reach[touching]
+    d, distance = d[touching], distance[touching]
+    share = distance / reach if scene.config.contacts and scene.config.contacts.lever == "contact_point" else 1.0
+    return touching_springs(
+        scene,
+        plan,
+        bodies,
+        first=i,
+        second=j,
+        materials=np.column_stack([scene.material[i], scene.material[j]]),
+        normal=d / distance[:, None],
+        arms=np.column_stack([share * bodies.radius[i], share * bodies.radius[j]]),
+        radius=bodies.radius[i] * bodies.radius[j] / reach,
+        overlap=overlap,
+    )
+
+
+def wall_springs(scene: Scene, plan: Blueprint, bodies: Bodies, near: Integers, displacement: Floats) -> Springs:
+    """Return the springs of the rows of ``near`` (p, 2), wall and particle, that touch.
+
+    Parameters
+    ----------
+    displacement : (w, 3) float64
+        How far each wall has moved, in m.
+    """
+    shapes = wall_shapes(scene)
+    names = list(scene.config.materials)
+    materials = [names.index(wall.material) for wall in scene.config.walls.values()]
+    rows = []
+    for w, k in near.tolist() if plan.contacts is not None else ():
+        nearest, shape = shapes[w]
+        found = nearest(shape, tuple((bodies.position[k] - displacement[w]).tolist()))
+        if found.distance < bodies.radius[k] and bodies.inverse_mass[k] > 0.0:
+            rows.append((k, materials[w], found.distance, *found.normal))
+    if not rows:
+        return no_springs()
+    table = np.array(rows, float)
+    particle, distance = table[:, 0].astype(np.int64), table[:, 2]
+    radius = bodies.radius[particle]
+    lever = distance if scene.config.contacts and scene.config.contacts.lever == "contact_point" else radius
+    return touching_springs(
+        scene,
+        plan,
+        bodies,
+        first=particle,
+        second=np.full(len(particle), len(bodies.radius)),
+        materials=np.column_stack([scene.material[particle], table[:, 1].astype(np.int64)]),
+        normal=table[:, 3:],
+        arms=np.column_stack([lever, np.zeros(len(lever))]),
+        radius=radius,
+        overlap=radius - distance,
+    )
+
+
+def touching_springs(
+    scene: Scene,
+    plan: Blueprint,
+    bodies: Bodies,
+    first: Integers,
+    second: Integers,
+    materials: Integers,
+    normal: Floats,
+    arms: Floats,
+    radius: Floats,
+    overlap: Floats,
+) -> Springs:
+    """Return the springs of contacts from their effective radii and overlaps, (p,) each in m."""
+    stiffness, damping = np.zeros((len(first), 4)), np.zeros((len(first), 4))
+    per_mass = np.append(bodies.inverse_mass, 0.0)
+    for (a, b), (law, constants, response) in contact_responses(scene, plan).items():
+        rows = np.nonzero((materials == (a, b)).all(axis=1))[0]
+        each = zip(radius[rows].tolist(), overlap[rows].tolist(), strict=True)
+        k = np.array([law.stiffness(constants, R, delta) for R, delta in each], float)
+        critical = 2.0 * np.sqrt(k / (per_mass[first[rows]] + per_mass[second[rows]]))
+        stiffness[rows, 0], stiffness[rows, 1] = k, response.across * k
+        damping[rows, 0], damping[rows, 1] = response.damping_along * critical, response.damping_across * critical
+    return Springs(first, second, normal, arms, stiffness, damping)
+
+
+def contact_responses(scene: Scene, plan: Blueprint) -> dict[tuple[int, int], Any]:
+    """Return law, constants and response by pair of materials, in either order."""
+    assert plan.contacts is not None
+    assert scene.config.contacts is not None
+    law, chosen = plan.contacts.law, scene.config.contacts.law
+    k = int(np.argmin(scene.radius))
+    found = {}
+    for a, b, pair in material_pairs(scene):
+        constants = law.constants(chosen.params, pair)
+        response = respond(law, constants, plan.contacts.choices, float(scene.radius[k]), float(scene.mass[k]))
+        found[a, b] = found[b, a] = (law, constants, response)
+    return found
+
+
+def overlaps_at_rest(scene: Scene, pairs: Integers) -> Floats:
+    """Return the overlaps up to which pairs do not push, (p,) in m."""
+    i, j = pairs.T
+    distance = np.linalg.norm(scene.position[i] - scene.position[j], axis=1)
+    overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
+    return np.asarray(np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0))
+
+
+def pair_numbers(scene: Scene, pairs: Integers) -> Integers:
+    """Return one number for each pair of particles, whichever stands first."""
+    return np.asarray(np.sort(pairs, axis=1) @ np.array([len(scene.radius), 1]))
+
+
+def no_springs() -> Springs:
+    """Return a table without springs."""
+    none = np.zeros(0, np.int64)
+    return Springs(none, none, np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 4)), np.zeros((0, 4)))
