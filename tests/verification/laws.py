@@ -1,4 +1,4 @@
-"""Plugin for the tests: Hertz–Mindlin once more under another name, and with mistakes of a size."""
+"""Plugin for the tests: laws of Clast once more under other names, and with mistakes of a size."""
 
 from dataclasses import replace
 
@@ -19,8 +19,24 @@ def underdamped(params, pair):
     return c._replace(c_n=0.98 * c.c_n)
 
 
+BOND = discover().get("bond_model", "elastic").part
+
+
+def soft_in_shear(params, bond):
+    c = BOND.constants(params, bond)
+    return c._replace(GA=0.98 * c.GA)
+
+
+def too_strong(params, bond):
+    c = BOND.constants(params, bond)
+    return c._replace(per_normal_strength=0.999 * c.per_normal_strength)
+
+
 @hookimpl
 def clast_register(registry):
     registry.contact_law("faithful", FAITHFUL)
     registry.contact_law("too_stiff", replace(FAITHFUL, constants=too_stiff))
     registry.contact_law("underdamped", replace(FAITHFUL, constants=underdamped))
+    registry.bond_model("faithful_bond", BOND)
+    registry.bond_model("soft_in_shear", replace(BOND, constants=soft_in_shear))
+    registry.bond_model("too_strong", replace(BOND, constants=too_strong))

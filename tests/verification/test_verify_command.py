@@ -16,9 +16,9 @@ def verify(*arguments):
     return CliRunner().invoke(main, ["verify", *(str(each) for each in arguments)])
 
 
-def failed(law, case):
+def failed(law, case, kind="--contact-law"):
     """Return the quantities of a case that a law of the tests gets wrong."""
-    result = verify(case, "--plugin", LAWS, "--contact-law", law, "--json")
+    result = verify(case, "--plugin", LAWS, kind, law, "--json")
     (outcome,) = json.loads(result.stdout)
     assert result.exit_code == (1 if outcome["verdict"] == "failed" else 0)
     return {found["quantity"] for found in outcome["findings"] if not found["passed"]}
@@ -80,6 +80,30 @@ def test_a_damping_wrong_by_2_percent_is_caught():
     wrong = failed("underdamped", "chung_ooi_3")
     assert "v'/v at e = 0.2, 400 steps per contact" in wrong
     assert "v'/v at e = 1, 400 steps per contact" not in wrong
+
+
+def test_the_bond_model_of_a_plugin_is_put_through_the_cases_by_name():
+    for case in ("bond_stiffness", "bond_elastic"):
+        assert failed("faithful_bond", case, "--bond-model") == set()
+
+
+def test_a_bond_2_percent_too_soft_in_shear_is_caught():
+    assert failed("soft_in_shear", "bond_stiffness", "--bond-model") == {"GA/L, N/m"}
+    assert "shear: step in which it breaks" in failed("soft_in_shear", "bond_elastic", "--bond-model")
+
+
+def test_a_strength_wrong_by_a_thousandth_is_caught():
+    broken_late = {"tension", "bending", "tension and bending", "compression and bending"}
+    wrong = failed("too_strong", "bond_elastic", "--bond-model")
+    assert wrong == {f"{load}: step in which it breaks" for load in broken_late}
+    assert failed("too_strong", "bond_stiffness", "--bond-model") == set()
+
+
+def test_a_bond_model_of_another_kind_is_told_what_it_lacks():
+    given = ("--set", "bonds.model.damage_strain=0.001", "--set", "bonds.model.breakage_strain=0.004")
+    result = verify("bond_stiffness", "--plugin", LINEAR, "--bond-model", "softening", *given)
+    assert result.exit_code == 0
+    assert "not applicable: 'softening' has no poisson_ratio" in result.stdout
 
 
 def test_a_case_that_says_nothing_about_a_law_says_why():

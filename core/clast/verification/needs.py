@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isclose
 
 from clast.config.scene import SceneConfig
@@ -49,3 +50,19 @@ def coulomb_on_elastic_force(scene: SceneConfig) -> str | None:
     if limit == "elastic":
         return None
     return f"with coulomb_limit {limit} a sliding impact takes another impulse than mu times the normal one"
+
+
+def bond_parameters(*names: str) -> Callable[[SceneConfig], str | None]:
+    """Ask for a bond model that has certain parameters: those that the closed form is made of."""
+
+    def need(scene: SceneConfig) -> str | None:
+        assert scene.bonds is not None
+        model = scene.bonds.model
+        missing = [name for name in names if getattr(model.params, name, None) is None]
+        return f"{model.name!r} has no {' and no '.join(missing)}" if missing else None
+
+    return need
+
+
+beam = bond_parameters("young_modulus", "poisson_ratio")
+"""Ask for a bond model whose stiffnesses are those of a cylinder of a material."""

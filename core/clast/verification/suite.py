@@ -7,9 +7,9 @@ from collections.abc import Collection
 from clast.errors import ConfigError
 from clast.plugins.nearest import suggestion
 from clast.verification.case import Case, Family
-from clast.verification.families import impacts
+from clast.verification.families import bond_models, bonds, impacts
 
-FAMILIES: tuple[Family, ...] = (impacts.FAMILY,)
+FAMILIES: tuple[Family, ...] = (impacts.FAMILY, bonds.FAMILY, bond_models.FAMILY)
 
 
 def chosen(cases: Collection[str] = (), families: Collection[str] = ()) -> list[tuple[Family, Case]]:
