@@ -30,9 +30,10 @@ class Touch(NamedTuple):
     inverse_mass, inverse_inertia : float
         1/m* = 1/m_i + 1/m_j in 1/kg, 1/I* likewise in 1/(kg m²); walls and prescribed particles count as infinite.
     moved : vector
-        How far j has moved against i at the contact point since the forces before, in m, for tangential springs.
-        Summing it up is of second order with every integrator; ``velocity`` times the step is not, because velocities
-        may belong to the end of that time. Given when the law has a History that is stored.
+        How far j has moved against i at the contact point since the forces before, or since they met if that was
+        later, in m, for tangential springs. Summing it up is of second order with every integrator; ``velocity`` times
+        the step is not, because velocities may belong to the end of that time. Given when the law has a History that
+        is stored.
     """
 
     overlap: float

@@ -59,6 +59,7 @@ from .slots import (
     row_constants,
     write_history,
 )
+from .touching import since_touch
 
 HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
 
@@ -119,7 +120,7 @@ def read_touch(scratch: Floats, lane: int, dt: float, at_contact_point: float) -
     moved = ZERO
     if HISTORY > 0:
         rolled = cross(scale(lever, vector(scratch, TURNING, lane)), n)
-        moved = scale(dt, sub(vector(scratch, DRIFT, lane), rolled))
+        moved = since_touch(scale(dt, sub(vector(scratch, DRIFT, lane), rolled)), n, overlap)
     touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia, moved)
     return touch, lever_i, lever_j
 

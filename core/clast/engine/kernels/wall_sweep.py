@@ -21,6 +21,7 @@ from .slots import (
     store_history,
     wall_nearest,
 )
+from .touching import since_touch
 
 
 @inlined
@@ -39,7 +40,8 @@ def wall_touch(
     velocity, spin, moved = ZERO, ZERO, ZERO
     if HISTORY > 0:
         drift = sub(wall_velocity, row(particles.twist, k, V))
-        moved = scale(dt, sub(drift, cross(scale(lever, row(particles.twist, k, W)), n)))
+        slip = sub(drift, cross(scale(lever, row(particles.twist, k, W)), n))
+        moved = since_touch(scale(dt, slip), n, radius - distance)
     if VELOCITY_FORCES:
         velocity = sub(wall_velocity, row(seen, k, V))
     if SPIN:
