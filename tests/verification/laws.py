@@ -32,6 +32,22 @@ def too_strong(params, bond):
     return c._replace(per_normal_strength=0.999 * c.per_normal_strength)
 
 
+def too_rough(params, pair):
+    c = FAITHFUL.constants(params, pair)
+    return c._replace(mu=1.02 * c.mu)
+
+
+def pushing(params, pair):
+    """Return friction that pushes where it should hold."""
+    c = FAITHFUL.constants(params, pair)
+    return c._replace(mu=-c.mu)
+
+
+def too_soft_sideways(params, pair):
+    c = FAITHFUL.constants(params, pair)
+    return c._replace(G=0.98 * c.G)
+
+
 @hookimpl
 def clast_register(registry):
     registry.contact_law("faithful", FAITHFUL)
@@ -40,3 +56,6 @@ def clast_register(registry):
     registry.bond_model("faithful_bond", BOND)
     registry.bond_model("soft_in_shear", replace(BOND, constants=soft_in_shear))
     registry.bond_model("too_strong", replace(BOND, constants=too_strong))
+    registry.contact_law("too_rough", replace(FAITHFUL, constants=too_rough))
+    registry.contact_law("pushing", replace(FAITHFUL, constants=pushing))
+    registry.contact_law("too_soft_sideways", replace(FAITHFUL, constants=too_soft_sideways))

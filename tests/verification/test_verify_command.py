@@ -106,6 +106,20 @@ def test_a_bond_model_of_another_kind_is_told_what_it_lacks():
     assert "not applicable: 'softening' has no poisson_ratio" in result.stdout
 
 
+@pytest.mark.parametrize("case", ["chung_ooi_4", "chung_ooi_5", "chung_ooi_6", "chung_ooi_8"])
+@pytest.mark.parametrize("law", ["too_rough", "pushing"])
+def test_friction_of_a_wrong_size_or_sign_is_caught_where_it_slides(law, case):
+    assert any("slides" in quantity for quantity in failed(law, case))
+
+
+def test_a_tangential_stiffness_wrong_by_2_percent_is_caught_where_it_sticks():
+    """The fine run of the wrong law agrees with its coarse one; only the closed form tells."""
+    assert failed("too_soft_sideways", "chung_ooi_5") == set()
+    assert {f"{each}, 400 steps: slip'/slip" for each in ("steel", "polymer")} <= failed(
+        "too_soft_sideways", "sticking_impact"
+    )
+
+
 def test_a_case_that_says_nothing_about_a_law_says_why():
     arguments = ("--plugin", LINEAR, "--contact-law", "linear", "--set", "contacts.law.stiffness=1e6")
     result = verify("chung_ooi_1", *arguments)

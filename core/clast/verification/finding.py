@@ -49,7 +49,7 @@ class Finding:
     @property
     def passed(self) -> bool:
         """Whether the error is within its bound; what is not a number never is."""
-        return self.error <= self.bound
+        return bool(self.error <= self.bound)
 
     @property
     def severity(self) -> float:

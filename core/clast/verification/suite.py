@@ -7,9 +7,15 @@ from collections.abc import Collection
 from clast.errors import ConfigError
 from clast.plugins.nearest import suggestion
 from clast.verification.case import Case, Family
-from clast.verification.families import bond_models, bonds, impacts
+from clast.verification.families import bond_models, bonds, impacts, oblique_impacts, spinning_impacts
 
-FAMILIES: tuple[Family, ...] = (impacts.FAMILY, bonds.FAMILY, bond_models.FAMILY)
+FAMILIES: tuple[Family, ...] = (
+    impacts.FAMILY,
+    oblique_impacts.FAMILY,
+    spinning_impacts.FAMILY,
+    bonds.FAMILY,
+    bond_models.FAMILY,
+)
 
 
 def chosen(cases: Collection[str] = (), families: Collection[str] = ()) -> list[tuple[Family, Case]]:

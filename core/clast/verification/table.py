@@ -73,11 +73,11 @@ def plain(outcome: Outcome) -> dict[str, Any]:
         "findings": [
             {
                 "quantity": each.quantity,
-                "expected": each.expected,
+                "expected": float(each.expected),
                 "got": finite(each.got),
                 "error": finite(each.error),
                 "error_is": "absolute" if each.absolute else "relative",
-                "bound": each.bound,
+                "bound": float(each.bound),
                 "passed": each.passed,
             }
             for each in outcome.findings

@@ -10,14 +10,12 @@ from clast.simulation import Simulation
 from clast.verification import needs
 from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings
-from clast.verification.closed_forms.hertz import HertzImpact, effective_modulus
+from clast.verification.closed_forms.hertz import HertzImpact
 from clast.verification.curves import Floats, order, peak, zero
 from clast.verification.finding import Finding, worst
-from clast.verification.reading import follow, force, position, velocity
+from clast.verification.impact_runs import STARTS, Row, between, on_floor, overlap_with_floor, starts
+from clast.verification.reading import follow, force, position
 from clast.verification.sketch import Line, Sketch
-
-STARTS = 1.0 + 0.01 * np.arange(4)
-"""The step is made this much smaller, so that contacts begin at four different points within a step."""
 
 COARSE, FINE = 50, 400
 """Steps per contact at which accuracy is asked for."""
@@ -29,38 +27,17 @@ ELASTIC, DAMPED, DAMPED_FINE = 1e-3, 1e-2, 1e-3
 """Accuracy that is asked for: without damping, with damping, and with damping at ``FINE`` steps."""
 
 
-def of_pair(simulation: Simulation, i: int) -> HertzImpact:
-    """Return the closed form of the equal particles i and i + 1, which meet."""
-    scene = simulation.scene
-    own = list(scene.config.materials.values())[scene.material[i]]
-    speed = float(np.linalg.norm(scene.velocity[i + 1] - scene.velocity[i]))
-    return HertzImpact(effective_modulus(own, own), 0.5 * float(scene.radius[i]), 0.5 * float(scene.mass[i]), speed)
-
-
 def overlap_of_pair(simulation: Simulation, i: int) -> float:
     """Return how far the particles i and i + 1 overlap in m; a gap is negative."""
     x, radius = position(simulation), simulation.scene.radius
     return float(radius[i] + radius[i + 1] - np.linalg.norm(x[i + 1] - x[i]))
 
 
-def on_floor(simulation: Simulation, i: int) -> HertzImpact:
-    """Return the closed form of particle i, which falls on the plane z = 0, the wall ``floor``."""
-    scene, materials = simulation.scene, simulation.config.materials
-    own = list(materials.values())[scene.material[i]]
-    modulus = effective_modulus(own, materials[simulation.config.walls["floor"].material])
-    return HertzImpact(modulus, float(scene.radius[i]), float(scene.mass[i]), -float(scene.velocity[i, 2]))
-
-
-def overlap_with_floor(simulation: Simulation, i: int) -> float:
-    """Return how far particle i reaches below z = 0 in m; a gap is negative."""
-    return float(simulation.scene.radius[i] - position(simulation)[i, 2])
-
-
 def judge_pairs(bench: Bench) -> Findings:
     """Compare both pairs of test 1 with Hertz."""
     start = bench.start()
     for name, i in (("limestone", 0), ("glass", 2)):
-        yield from judge_contact(bench, name, i, of_pair(start, i), overlap_of_pair)
+        yield from judge_contact(bench, name, i, between(start, i, i + 1), overlap_of_pair)
 
 
 def judge_falls(bench: Bench) -> Findings:
@@ -104,9 +81,9 @@ def course(name: str, closed: HertzImpact, time: Floats, overlaps: Floats) -> Sk
 
 def judge_restitution(bench: Bench) -> Findings:
     """Compare v'/v with e at several numbers of steps per contact; each the worst of four starts."""
-    start = bench.start()
-    written, duration = restitutions(start), on_floor(start, 0).duration
-    got = np.array([[rebounds(bench, duration / (n * s)) for s in STARTS] for n in COUNTS])
+    row = Row(bench)
+    written = row.restitution
+    got = np.array([[-after.across / row.before.across for after in starts(row, n)] for n in COUNTS])
     for n, damped in ((COARSE, DAMPED), (FINE, DAMPED_FINE)):
         for e, values in zip(written, got[COUNTS.index(n)].T, strict=True):
             quantity = f"v'/v at e = {e:g}, {n} steps per contact"
@@ -132,21 +109,6 @@ def convergence(written: Floats, errors: Floats) -> Sketch:
         tuple(Line(f"e = {e:g}: order {order(COUNTS, column):.1f}", counts, column) for e, column in shown),
         logarithmic=True,
     )
-
-
-def restitutions(simulation: Simulation) -> Floats:
-    """Return the coefficient of restitution that is written for each particle and the floor."""
-    scene, contacts = simulation.scene, simulation.config.contacts
-    assert contacts is not None
-    names, floor = list(simulation.config.materials), simulation.config.walls["floor"].material
-    pairs = [contacts.pair(names[k], floor) for k in scene.material]
-    return np.array([pair.restitution for pair in pairs if pair is not None])
-
-
-def rebounds(bench: Bench, step: float) -> Floats:
-    """Return v'/v of every particle."""
-    simulation = bench.run({"time.step": step})
-    return np.asarray(-velocity(simulation)[:, 2] / simulation.scene.velocity[:, 2])
 
 
 HERTZ = "peak force, peak overlap and duration of Hertz's impact: K. L. Johnson (1985), Contact Mechanics, Sect. 11.4"
