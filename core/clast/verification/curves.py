@@ -44,3 +44,24 @@ def order(steps: Any, errors: Any) -> float:
     2.0
     """
     return -float(np.polyfit(np.log(np.asarray(steps, float)), np.log(np.asarray(errors, float)), 1)[0])
+
+
+def crossings(t: Floats, y: Floats) -> Floats:
+    """Return all times at which a curve passes through zero, by straight lines between its points.
+
+    >>> crossings(np.array([0.0, 1.0, 2.0, 3.0]), np.array([1.0, -1.0, -1.0, 3.0])).tolist()
+    [0.5, 2.25]
+    """
+    k = np.nonzero(y[:-1] * y[1:] < 0.0)[0]
+    return np.asarray(t[k] + (t[k + 1] - t[k]) * y[k] / (y[k] - y[k + 1]))
+
+
+def frequency(t: Floats, y: Floats) -> float:
+    """Return the angular frequency of a vibration about zero in rad/s, from its first to its last passage; nan if none.
+
+    >>> t = np.linspace(0.0, 10.0, 1001)
+    >>> round(frequency(t, np.sin(3.0 * t + 0.2)), 4)
+    3.0
+    """
+    times = crossings(t, y)
+    return float(np.pi * (len(times) - 1) / (times[-1] - times[0])) if len(times) > 1 else float("nan")

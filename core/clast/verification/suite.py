@@ -7,7 +7,17 @@ from collections.abc import Collection
 from clast.errors import ConfigError
 from clast.plugins.nearest import suggestion
 from clast.verification.case import Case, Family
-from clast.verification.families import bond_models, bonds, impacts, oblique_impacts, spinning_impacts
+from clast.verification.families import (
+    beams,
+    bond_models,
+    bonds,
+    impacts,
+    oblique_impacts,
+    rotations,
+    spinning_impacts,
+    waves,
+    whole_runs,
+)
 
 FAMILIES: tuple[Family, ...] = (
     impacts.FAMILY,
@@ -15,6 +25,10 @@ FAMILIES: tuple[Family, ...] = (
     spinning_impacts.FAMILY,
     bonds.FAMILY,
     bond_models.FAMILY,
+    beams.FAMILY,
+    rotations.FAMILY,
+    waves.FAMILY,
+    whole_runs.FAMILY,
 )
 
 

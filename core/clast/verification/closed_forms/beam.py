@@ -9,6 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class Beam:
@@ -70,3 +75,79 @@ class Beam:
     def bending(self) -> float:
         """EI/L in N m/rad."""
         return self.E * self.I / self.L
+
+
+@dataclass(frozen=True)
+class Cantilever:
+    """A row of equal bonds, held at one end; the spheres between them are rigid.
+
+    Attributes
+    ----------
+    bond : Beam
+        One bond.
+    n : int
+        Number of bonds.
+
+    Examples
+    --------
+    Many bonds bend and shear as Timoshenko's beam does:
+
+    >>> beam = Cantilever(Beam(E=1e9, nu=0.25, R=1e-4, L=1e-5), n=1000)
+    >>> round(beam.deflection(1e-6) / beam.timoshenko(1e-6), 6)
+    1.0
+    """
+
+    bond: Beam
+    n: int
+
+    @property
+    def length(self) -> float:
+        """Length of the row in m."""
+        return self.n * self.bond.L
+
+    @property
+    def bending(self) -> float:
+        """EI in N m²."""
+        return self.bond.bending * self.bond.L
+
+    def timoshenko(self, load: float) -> float:
+        """Return the tip's deflection under a small load P across the beam: P L³/(3 EI) + P L/(GA), in m."""
+        return load * self.length**3 / (3.0 * self.bending) + load * self.length / (self.bond.shear * self.bond.L)
+
+    def deflection(self, load: float) -> float:
+        """Return the same of the row of n bonds: P L³/(3 EI) (1 − 1/(4 n²)) + P L/(GA).
+
+        Bond k turns its end against its beginning by the moment in its middle, P (n − k − ½) l, times l/EI, and slants
+        by the mean of both turns plus P/(GA); the sum over all bonds is the trapezoidal rule for the beam's integral.
+        """
+        bent = load * self.length**3 / (3.0 * self.bending) * (1.0 - 0.25 / self.n**2)
+        return bent + load * self.length / (self.bond.shear * self.bond.L)
+
+    def bending_modes(self, mass: float, inertia: float) -> tuple[Floats, Floats]:
+        """Return the frequencies of small bending vibrations, and their shapes.
+
+        Parameters
+        ----------
+        mass, inertia : float
+            Of each sphere, in kg and kg m².
+
+        Returns
+        -------
+        frequency : (2 n,) float64
+            In rad/s, the lowest first.
+        shape : (2 n, 2 n) float64
+            One mode a column: deflections in m of the spheres 1 to n, then their slopes in rad.
+        """
+        from scipy.linalg import eigh
+
+        n = self.n
+        shear, bending = np.zeros((n, 2 * (n + 1))), np.zeros((n, 2 * (n + 1)))
+        for k in range(n):
+            shear[k, [k, k + 1]] = -1.0, 1.0
+            shear[k, [n + 1 + k, n + 2 + k]] = -0.5 * self.bond.L
+            bending[k, [n + 1 + k, n + 2 + k]] = -1.0, 1.0
+        stiffness = self.bond.shear * shear.T @ shear + self.bond.bending * bending.T @ bending
+        free = [*range(1, n + 1), *range(n + 2, 2 * n + 2)]
+        inert = np.diag([mass] * n + [inertia] * n)
+        square, shape = eigh(stiffness[np.ix_(free, free)], inert)
+        return np.sqrt(square), shape
