@@ -1,0 +1,97 @@
+"""Whole runs: what must hold whatever happens."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from clast.simulation import Simulation
+from clast.verification.bench import Bench
+from clast.verification.case import Case, Family, Findings
+from clast.verification.curves import Floats
+from clast.verification.families.bonds import farthest, motion
+from clast.verification.finding import Finding
+from clast.verification.reading import follow, position, spin, velocity
+from clast.verification.sketch import Line, Sketch
+
+LOOK = 50
+"""Steps between two looks."""
+
+ROUNDING = 1e-11
+"""What rounding may change, as a share."""
+
+
+def judge_momentum(bench: Bench) -> Findings:
+    """Follow momentum and angular momentum through a collision in which much breaks."""
+    simulation = bench.start()
+    linear, angular, energies = follow(simulation, momenta, LOOK)
+    shares = []
+    for name, total in (("momentum", linear), ("angular momentum", angular)):
+        size = np.linalg.norm(total[0].sum(axis=0))
+        shares.append(np.linalg.norm(total.sum(axis=1) - total[0].sum(axis=0), axis=1) / size)
+        yield Finding(f"{name}: largest change, share", 0.0, float(shares[-1].max()), ROUNDING, True)
+    broken = simulation.bonds_broken / len(simulation.scene.ends)
+    yield Finding("share of bonds that broke, so that it means something", 0.5, broken, 0.4, True)
+    lost = 1.0 - energies[-1] / energies[0]
+    yield Finding("share of the kinetic energy that was lost, likewise", 0.5, float(lost), 0.4, True)
+    time = 1e3 * simulation.dt * np.minimum(LOOK * np.arange(len(linear)), simulation.last_step)
+    lines = [Line(f"one cube, {c}", time, 1e6 * linear[:, 0, a]) for a, c in enumerate("xyz")]
+    lines += [Line(f"both, {c}", time[::10], 1e6 * linear[::10].sum(axis=1)[:, a], True) for a, c in enumerate("xyz")]
+    yield Sketch("two cubes that collide and break", "time, ms", "momentum, mg m/s", tuple(lines))
+    floor = 1e-17  # where nothing at all has changed
+    changes = zip(("momentum", "angular momentum"), shares, strict=True)
+    yield Sketch(
+        "rounding",
+        "time, ms",
+        "change, share",
+        tuple(Line(name, time[1:], np.maximum(share[1:], floor)) for name, share in changes),
+        logarithmic=True,
+    )
+
+
+def momenta(simulation: Simulation) -> tuple[Floats, Floats, float]:
+    """Return momentum and angular momentum of both cubes, (2, 3) each, and the kinetic energy of all in J."""
+    scene = simulation.scene
+    x, v, w = position(simulation), velocity(simulation), spin(simulation)
+    m, inertia = scene.mass[:, None], (0.4 * scene.mass * scene.radius**2)[:, None]
+    energy = 0.5 * float((m * v**2 + inertia * w**2).sum())
+    halves = (2, len(m) // 2, 3)
+    angular = m * np.cross(x, v) + inertia * w
+    return (m * v).reshape(halves).sum(axis=1), angular.reshape(halves).sum(axis=1), energy
+
+
+def judge_neighbours(bench: Bench) -> Findings:
+    """Run once more with other neighbour lists: by another search, and with more and less reach."""
+    reference = motion(bench.run())
+    variants = {
+        "all pairs tested": {"neighbours": {"type": "brute_force"}},
+        "a short reach": {"neighbours": {"skin": "0.1 mm"}},
+        "a long reach": {"neighbours": {"skin": "2 mm"}},
+    }
+    for name, changes in variants.items():
+        simulation = bench.run(changes)
+        difference = max(farthest(a, b) for a, b in zip(reference, motion(simulation), strict=True))
+        yield Finding(f"{name}: difference of any position, velocity, spin", 0.0, difference, 0.0, True)
+
+
+FAMILY = Family(
+    "whole_runs",
+    "Whole runs",
+    "Two free cubes of bonded spheres collide off-centre and spinning: bonds break, pieces touch, slide and roll. "
+    "Momentum and angular momentum change by rounding only, and how neighbours are found changes not a bit.",
+    (
+        Case(
+            "run_momentum",
+            "momentum and angular momentum of what collides and breaks",
+            "run_clusters",
+            judge_momentum,
+            "forces and torques come in pairs: Newton's third law",
+        ),
+        Case(
+            "run_neighbours",
+            "any neighbour lists give the same run",
+            "run_clusters",
+            judge_neighbours,
+            "the same bits: lists only tell which pairs may touch",
+        ),
+    ),
+)
