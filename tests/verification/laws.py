@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 from clast import hookimpl
+from clast.parts.params import Params
 from clast.plugins.discovery import discover
+from clast_plugins.bond_models.beam import beam_stiffness
 
 CLAST_API = 1
 FAITHFUL = discover().get("contact_law", "hertz_mindlin").part
@@ -48,12 +50,35 @@ def too_soft_sideways(params, pair):
     return c._replace(G=0.98 * c.G)
 
 
+class Nameless(Params):
+    """A bond that is told neither E nor ν."""
+
+    k: float = 564.26e6
+
+
+def nameless(params, bond):
+    return BOND.constants(BOND.Params(young_modulus=params.k, poisson_ratio=0.25, normal_strength=1e9), bond)
+
+
+def declares_too_much(params, bond):
+    k = beam_stiffness(params.k, 0.25, bond)
+    return k._replace(axial=1.02 * k.axial, bending=1.02 * k.bending)
+
+
+def no_cylinder(params, bond):
+    k = BOND.stiffness(params, bond)
+    return k._replace(bending=2.0 * k.bending)
+
+
 @hookimpl
 def clast_register(registry):
     registry.contact_law("faithful", FAITHFUL)
     registry.contact_law("too_stiff", replace(FAITHFUL, constants=too_stiff))
     registry.contact_law("underdamped", replace(FAITHFUL, constants=underdamped))
     registry.bond_model("faithful_bond", BOND)
+    without = replace(BOND, Params=Nameless, constants=nameless, stiffness=declares_too_much)
+    registry.bond_model("declares_too_much", without)
+    registry.bond_model("no_cylinder", replace(BOND, stiffness=no_cylinder))
     registry.bond_model("soft_in_shear", replace(BOND, constants=soft_in_shear))
     registry.bond_model("too_strong", replace(BOND, constants=too_strong))
     registry.contact_law("too_rough", replace(FAITHFUL, constants=too_rough))

@@ -99,11 +99,24 @@ def test_a_strength_wrong_by_a_thousandth_is_caught():
     assert failed("too_strong", "bond_stiffness", "--bond-model") == set()
 
 
-def test_a_bond_model_of_another_kind_is_told_what_it_lacks():
+def test_a_bond_model_of_another_kind_meets_the_cases_that_say_something_about_it():
     given = ("--set", "bonds.model.damage_strain=0.001", "--set", "bonds.model.breakage_strain=0.004")
-    result = verify("bond_stiffness", "--plugin", LINEAR, "--bond-model", "softening", *given)
+    result = verify("bond_stiffness", "bond_elastic", "--plugin", LINEAR, "--bond-model", "softening", *given)
     assert result.exit_code == 0
-    assert "not applicable: 'softening' has no poisson_ratio" in result.stdout
+    assert "GA/L, N/m" in result.stdout
+    assert "not applicable: 'softening' has no normal_strength and no" in result.stdout
+
+
+def test_a_bond_that_declares_another_stiffness_than_it_has_is_caught():
+    assert failed("declares_too_much", "bond_stiffness", "--bond-model") == {"EA/L, N/m", "EI/L, N m"}
+
+
+def test_a_bond_that_is_no_cylinder_is_not_compared_with_one():
+    result = verify("bond_stiffness", "--plugin", LAWS, "--bond-model", "no_cylinder")
+    assert result.exit_code == 0
+    assert "not applicable: the stiffnesses that 'no_cylinder' declares are not those" in " ".join(
+        result.stdout.split()
+    )
 
 
 @pytest.mark.parametrize("case", ["chung_ooi_4", "chung_ooi_5", "chung_ooi_6", "chung_ooi_8"])

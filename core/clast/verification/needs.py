@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import isclose
 
+import numpy as np
+
 from clast.config.scene import SceneConfig
+from clast.parts.bond_model import BondGeometry
 from clast.parts.contact_law import MaterialPair
+from clast.verification.closed_forms.beam import Beam
 
 
 def _pair(scene: SceneConfig) -> MaterialPair:
@@ -64,5 +68,31 @@ def bond_parameters(*names: str) -> Callable[[SceneConfig], str | None]:
     return need
 
 
-beam = bond_parameters("young_modulus", "poisson_ratio")
-"""Ask for a bond model whose stiffnesses are those of a cylinder of a material."""
+def elastic_constants(scene: SceneConfig) -> tuple[float, float]:
+    """Return E in Pa and ν of the bonds: as their model is told, or else as the stiffnesses that it declares imply."""
+    assert scene.bonds is not None
+    params = scene.bonds.model.params
+    E, nu = (getattr(params, name, None) for name in ("young_modulus", "poisson_ratio"))
+    unit = Beam(E=1.0, nu=0.0, R=0.1, L=1.0)
+    axial, shear, _, _ = declared(scene, unit)
+    return E or axial / unit.axial, 0.5 * axial / shear - 1.0 if nu is None else nu
+
+
+def declared(scene: SceneConfig, size: Beam) -> tuple[float, ...]:
+    """Return the stiffnesses that the bond model declares for a bond of some size."""
+    assert scene.bonds is not None
+    model = scene.bonds.model
+    L0 = np.array([size.L])
+    found = model.part.stiffness(model.params, BondGeometry(L0, size.R, size.A, size.I))
+    return tuple(float(np.ravel(each)[0]) for each in found)
+
+
+def cylinder(scene: SceneConfig) -> str | None:
+    """Ask for a bond model whose stiffnesses, as it declares them, are those of a cylinder of a material."""
+    assert scene.bonds is not None
+    E, nu = elastic_constants(scene)
+    beam = Beam(E, nu, R=0.1, L=1.0)
+    expected = (beam.axial, beam.shear, beam.torsion, beam.bending)
+    if all(isclose(a, b, rel_tol=1e-9) for a, b in zip(declared(scene, beam), expected, strict=True)):
+        return None
+    return f"the stiffnesses that {scene.bonds.model.name!r} declares are not those of a cylinder"

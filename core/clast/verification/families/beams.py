@@ -163,7 +163,7 @@ FAMILY = Family(
             "beam_cantilever",
             judge_small,
             "P L³/(3 EI) (1 − 1/(4 n²)) + P L/(GA), the sum over n bonds",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
         Case(
             "beam_elastica",
@@ -171,7 +171,7 @@ FAMILY = Family(
             "beam_elastica",
             judge_elastica,
             "the elastica in elliptic integrals: Bisshopp and Drucker (1945), doi:10.1090/qam/13360",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
         Case(
             "beam_roll_up",
@@ -179,7 +179,7 @@ FAMILY = Family(
             "beam_roll_up",
             judge_roll_up,
             "the moment 2π EI/L closes a beam to a circle, and n bonds to a regular polygon",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
         Case(
             "beam_vibration",
@@ -187,7 +187,7 @@ FAMILY = Family(
             "beam_vibration",
             judge_vibration,
             "the lowest eigenvalue of the row of bonds and rigid spheres",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
     ),
 )

@@ -192,7 +192,7 @@ FAMILY = Family(
             "bond_elastic",
             judge_elastic,
             f"σ = Eε, τ = Gγ; breaks at E (ε + Rθ_b/L) = σ_br or G (γ + Rθ_t/L) = τ_br: {PAPER}, Eqs. 7–8",
-            (needs.beam, needs.bond_parameters("normal_strength", "shear_strength")),
+            (needs.cylinder, needs.bond_parameters("normal_strength", "shear_strength")),
         ),
         Case(
             "bond_elastic_plastic",
@@ -200,7 +200,7 @@ FAMILY = Family(
             "bond_elastic_plastic",
             judge_plastic,
             f"|σ| = min(E|ε|, σ_y), τ = min(Gγ, σ_y); breaks at ε_max and −K ε_max: {PAPER}, Eqs. 9–11, 13",
-            (needs.beam, needs.bond_parameters("yield_stress", "breakage_strain", "compressive_break")),
+            (needs.cylinder, needs.bond_parameters("yield_stress", "breakage_strain", "compressive_break")),
         ),
         Case(
             "bond_micro_cracking",
@@ -208,7 +208,7 @@ FAMILY = Family(
             "bond_micro_cracking",
             judge_cracking,
             f"at the kth yield |σ| drops to η_k σ_y, η_k the kth random number of the bond: {PAPER}, Eqs. 11–13",
-            (needs.beam, needs.bond_parameters("yield_stress", "weakening_factor", "seed")),
+            (needs.cylinder, needs.bond_parameters("yield_stress", "weakening_factor", "seed")),
         ),
     ),
 )

@@ -28,9 +28,9 @@ def model_parameters(scene: Scene) -> Any:
 
 
 def beam_of(scene: Scene, bond: int = 0) -> Beam:
-    """Return a bond as a beam of the material that its model names."""
-    params = model_parameters(scene)
-    return Beam(params.young_modulus, params.poisson_ratio, 0.5 * scene.diameter[bond], float(scene.length[bond]))
+    """Return a bond as a cylinder of the material that its model is told of."""
+    E, nu = needs.elastic_constants(scene.config)
+    return Beam(E, nu, 0.5 * float(scene.diameter[bond]), float(scene.length[bond]))
 
 
 def split(vector: Floats, axis: Floats) -> tuple[float, float]:
@@ -128,7 +128,7 @@ FAMILY = Family(
             "bond_stiffness",
             judge_stiffness,
             "EA/L, GA/L, GJ/L, EI/L: Rotter, Dosta and Düster (2023), Eqs. 3–6",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
         Case(
             "bond_pull",
@@ -136,7 +136,7 @@ FAMILY = Family(
             "bond_pull",
             judge_pull,
             "E π r²/(2 r) v dt = 1570.8 N a step: a case of the test suite of Kratos Multiphysics",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
         Case(
             "bond_swap",

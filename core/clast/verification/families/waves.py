@@ -77,7 +77,7 @@ FAMILY = Family(
             judge_bar,
             "ω = 2 √(EA/(L m)) sin(k a/2), and 2 √(GJ/(L I)) sin(k a/2): L. Brillouin (1946), Wave Propagation in "
             "Periodic Structures",
-            (needs.beam,),
+            (needs.cylinder,),
         ),
     ),
 )
