@@ -16,12 +16,25 @@ def peak(y: Floats) -> float:
     >>> round(peak(np.cos(np.linspace(-0.3, 0.4, 8))), 4)
     1.0
     """
+    return top_of(y)[1]
+
+
+def top_of(y: Floats) -> tuple[float, float]:
+    """Return where :func:`peak` is, in places of the array, and how high.
+
+    >>> x = np.arange(5.0)
+    >>> top_of(2.0 - (x - 2.25) ** 2)
+    (2.25, 2.0)
+    """
     k = int(np.argmax(y))
     if k in (0, len(y) - 1):
-        return float(y[k])
+        return float(k), float(y[k])
     before, top, after = (float(each) for each in y[k - 1 : k + 2])
     bend = before - 2.0 * top + after
-    return top - (after - before) ** 2 / (8.0 * bend) if bend < 0.0 else top
+    if not bend < 0.0:
+        return float(k), top
+    aside = 0.5 * (before - after) / bend
+    return k + aside, top - 0.25 * (before - after) * aside
 
 
 def zero(t: Floats, y: Floats) -> float:

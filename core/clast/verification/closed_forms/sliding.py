@@ -4,7 +4,8 @@ A sphere that meets a much heavier body loses the tangential impulse μ (1 + e) 
 as its contact point slides the same way to the end. Its moment of inertia is 2/5 m r², so the spin gains 5/2 of that
 and the slip loses 7/2.
 
-Source: C. Thornton (2009), doi:10.1115/1.2988478, and any text on rigid impacts.
+Source: Coulomb's law and the balances of momentum and of moments; N. Maw, J. R. Barber and J. N. Fawcett (1976),
+doi:10.1016/0043-1648(76)90201-5, call it gross slip.
 """
 
 from __future__ import annotations

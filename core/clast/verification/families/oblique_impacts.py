@@ -105,6 +105,7 @@ def judge_sticking(bench: Bench) -> Findings:
 
 
 ALL = (needs.hertzian, needs.sticks, needs.full_restitution, needs.coulomb_on_elastic_force)
+SLIDING = "where it slides all through: Coulomb's law, and balances of momentum and moments"
 TEXT = f"""Chung and Ooi (2011), tests 4 and 5, and a third case that they do not have. Each number is the worst of
 all angles or speeds, and of four impacts that begin at different points of a step.
 
@@ -128,8 +129,7 @@ FAMILY = Family(
             "one speed, 5 to 85° from the normal",
             "chung_ooi_4_oblique",
             judge_angles,
-            "v't/vt = 1 − μ (1 + e)/tan θ, ω' = −5/2 μ (1 + e) v_n/r where it slides all through: C. Thornton (2009), "
-            "doi:10.1115/1.2988478",
+            f"v't/vt = 1 − μ (1 + e)/tan θ, ω' = −5/2 μ (1 + e) v_n/r {SLIDING}",
             ALL,
         ),
         Case(
@@ -137,7 +137,7 @@ FAMILY = Family(
             "one normal speed, any tangential speed, elastic",
             "chung_ooi_5_oblique",
             judge_speeds,
-            "V's = Vs − 7, rω'/(μ vn) = −5 where it slides all through: C. Thornton (2009), doi:10.1115/1.2988478",
+            f"V's = Vs − 7, rω'/(μ vn) = −5 {SLIDING}",
             ALL,
         ),
         Case(
