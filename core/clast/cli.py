@@ -167,6 +167,13 @@ def view(folder: Path) -> None:
 @_plugin
 @_set
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
+@click.option(
+    "--docs",
+    "page",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write a page with tables and pictures, too.",
+)
 @click.pass_context
 def verify(
     ctx: click.Context,
@@ -177,6 +184,7 @@ def verify(
     files: tuple[Path, ...],
     overrides: tuple[str, ...],
     as_json: bool,
+    page: Path | None,
     **parts: str | None,
 ) -> None:
     """Run scenes with known answers, all or each CASE, and compare; exit code 1 where one fails."""
@@ -188,5 +196,5 @@ def verify(
         return
     chosen_parts = {kind: name for kind, name in parts.items() if name is not None}
     replacement = Replacement(chosen_parts, files, overrides)
-    if not verify_command.verify(cases, families, replacement, as_json):
+    if not verify_command.verify(cases, families, replacement, as_json, page):
         ctx.exit(1)

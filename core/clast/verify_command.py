@@ -6,12 +6,13 @@ import json
 import sys
 from collections.abc import Collection, Sequence
 from contextlib import nullcontext
+from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
 from clast.verification.bench import Bench
-from clast.verification.case import Case, Family
+from clast.verification.case import Case
 from clast.verification.examine import FAILED, NOT_APPLICABLE, PASSED, Outcome, examine
 from clast.verification.replacement import Replacement
 from clast.verification.suite import FAMILIES, chosen
@@ -23,15 +24,37 @@ WIDE = 200
 """Columns where no terminal tells how many it has."""
 
 
-def verify(cases: Collection[str], families: Collection[str], replacement: Replacement, as_json: bool) -> bool:
+def verify(
+    cases: Collection[str] = (),
+    families: Collection[str] = (),
+    replacement: Replacement | None = None,
+    as_json: bool = False,
+    page: Path | None = None,
+) -> bool:
     """Run cases, print what they found, and tell whether none failed.
+
+    Parameters
+    ----------
+    cases, families : collection of str
+        Names; all cases, where there are none.
+    replacement : Replacement or None
+        What takes the place of Clast's own parts.
+    as_json : bool
+        Whether to print JSON instead of a table.
+    page : Path or None
+        Markdown file to write, with pictures beside it.
 
     Raises
     ------
     ConfigError
-        A name is unknown, or the replacement fits a scene not, or none of them.
+        A name is unknown, or the replacement does not fit a scene, or fits none of them.
     """
-    outcomes = examine_all(chosen(cases, families), replacement)
+    which = chosen(cases, families)
+    outcomes = examine_all([case for _, case in which], replacement or Replacement())
+    if page is not None:
+        from clast.verification.page import write_page
+
+        write_page(page, [(family, outcome) for (family, _), outcome in zip(which, outcomes, strict=True)], typed())
     if as_json:
         print(json.dumps([plain(outcome) for outcome in outcomes], indent=2, ensure_ascii=False))
     else:
@@ -39,14 +62,19 @@ def verify(cases: Collection[str], families: Collection[str], replacement: Repla
     return all(outcome.verdict != FAILED for outcome in outcomes)
 
 
-def examine_all(cases: Sequence[tuple[Family, Case]], replacement: Replacement) -> list[Outcome]:
+def typed() -> list[str]:
+    """Return the command line, whatever the program's file is called."""
+    return ["clast", *sys.argv[1:]]
+
+
+def examine_all(cases: Sequence[Case], replacement: Replacement) -> list[Outcome]:
     """Run cases one after the other; a terminal shows which."""
-    benches = {config: Bench(config, replacement) for config in dict.fromkeys(case.config for _, case in cases)}
+    benches = {config: Bench(config, replacement) for config in dict.fromkeys(case.config for case in cases)}
     replacement.refuse_idle(bench.scene() for bench in benches.values())
     console = Console(stderr=True)
     outcomes = []
     with console.status("") if sys.stderr.isatty() else nullcontext() as status:
-        for _, case in cases:
+        for case in cases:
             if status is not None:
                 status.update(f"{case.name}: {case.title}")
             outcomes.append(examine(case, benches[case.config]))

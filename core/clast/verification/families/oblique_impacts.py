@@ -71,7 +71,7 @@ def judge_angles(bench: Bench) -> Findings:
         yield from compare(f"e = {e}: ", row, exact, TEST_4, accuracy, [f"{each:.0f}°" for each in angle])
         if e == "0.98":
             for measure in TEST_4:
-                yield curve("test 4", "angle of impact, °", angle, row, exact, measure)
+                yield curve("test 4, e = 0.98", "angle of impact, °", angle, row, exact, measure)
             yield convergence("test 4: error against steps", row, exact)
 
 
