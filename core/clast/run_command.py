@@ -172,10 +172,23 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     if summary["particles_removed"]:
         rows.append(("particles that left", f"{summary['particles_removed']}"))
     rate = summary["steps_per_s"]
-    rows.append(("steps", f"{summary['steps']} of {summary['time_step_s']:.3g} s"))
+    rows.append(("steps", steps_text(summary)))
     rows.append(("run time", f"{duration(summary['wall_time_s'])}, {rate:,.0f} steps/s" if rate else "none"))
     rows.append(("memory", f"{summary['memory_MB']:.0f} MB"))
     return rows
+
+
+def steps_text(summary: dict[str, Any]) -> str:
+    """Return how many steps were taken, how long they were, and which limit ruled.
+
+    >>> changes = [{"step": 50, "time": 0.1, "dt": 0.001}]
+    >>> told = {"steps": 90, "time_step_s": 0.002, "time_step_changes": changes, "time_step_ruled_by": "spectral"}
+    >>> steps_text(told)
+    '90 of 0.002 s (limit: spectral), shortened 1 times to 0.001 s'
+    """
+    rule, changes = summary["time_step_ruled_by"], summary["time_step_changes"]
+    text = f"{summary['steps']} of {summary['time_step_s']:.3g} s" + (f" (limit: {rule})" if rule else "")
+    return text + (f", shortened {len(changes)} times to {changes[-1]['dt']:.3g} s" if changes else "")
 
 
 def print_outcome(outcome: Outcome) -> None:

@@ -14,8 +14,10 @@ from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, S
 from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.rehearsal import readable_errors, try_laws
 from clast.engine.state import Floats, World
+from clast.engine.step_keeper import StepKeeper
 from clast.engine.tables import intact, slot_view
 from clast.engine.time_step import Limits, choose_step, limits
+from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, build_world, relieve
@@ -43,9 +45,11 @@ class Simulation:
     scene : Scene
         What the generators made.
     limits : Limits
-        Limits of the time step.
-    dt : float
-        Time step in s.
+        Limits of the time step at the start.
+    timeline : Timeline
+        Which step is at what time.
+    keeper : StepKeeper
+        Takes smaller steps when contacts become stiffer.
     crew : Crew
         The threads that share the steps; the results do not depend on their number.
     world : World
@@ -53,7 +57,9 @@ class Simulation:
     gauge : Gauge
         Reads strain, stress and plate forces.
     last_step : int
-        Step at which the scene ends.
+        Step at which the scene ends, with the present time step.
+    planned_steps : int
+        The same with the first time step.
     removed : int
         Particles that have left the domain.
     rebuilds : int
@@ -66,10 +72,11 @@ class Simulation:
         check_start(self.scene)
         self.plan = blueprint(self.scene)
         self.limits: Limits = limits(self.scene, self.plan)
-        self.dt = choose_step(self.scene, self.limits)
+        self.timeline = Timeline([Span(0, 0.0, choose_step(self.scene, self.limits))])
+        self.keeper = StepKeeper(self.scene, self.plan)
         self.skin = choose_skin(self.scene)
         self.gauge = Gauge(config)
-        self.last_step = self.gauge.last_step(self.dt)
+        self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
@@ -88,7 +95,12 @@ class Simulation:
     @property
     def time(self) -> float:
         """Simulated time in s."""
-        return self.step * self.dt
+        return self.timeline.time_of(self.step)
+
+    @property
+    def dt(self) -> float:
+        """Present time step in s."""
+        return self.timeline.dt
 
     @property
     def bonds_broken(self) -> int:
@@ -110,23 +122,60 @@ class Simulation:
         """
         while self.step < self.last_step:
             due = [observer.next_step(self.step) for observer in observers]
-            self.advance_to(min([self.last_step, *(step for step in due if step is not None)]))
+            stops = [self.last_step, self.keeper.next_look(self.step), *due]
+            self.advance_to(min(step for step in stops if step is not None))
             for observer, step in zip(observers, due, strict=True):
                 if step == self.step:
                     observer.observe(self)
 
     def advance_to(self, step: int) -> None:
-        """Advance to a step, making neighbour lists anew whenever they go stale.
+        """Advance to a step, looking now and then whether the time step is still safe.
 
         Raises
         ------
         RunError
-            If positions stop being numbers or a particle outruns its neighbours: the step was too large.
+            If positions stop being numbers or a particle outruns its neighbours, or a fixed step becomes too large.
         """
+        while True:
+            look = self.keeper.next_look(self.step)
+            self._advance_to(step if look is None else min(step, look))
+            if self.step == look:
+                self.change_step(self.keeper.look(self.world, self.dt, self.timeline.spans[0].dt))
+            if self.step >= step:
+                return
+
+    def _advance_to(self, step: int) -> None:
+        """Advance to a step, making neighbour lists anew whenever they go stale."""
         while self._advance(step) == STALE:
             self._refuse_blow_up()
             self._remove_leavers()
             self.renew_lists()
+
+    def change_step(self, dt: float) -> None:
+        """Take steps of another size in s from now on.
+
+        Velocities that lag behind positions are brought to where the new step expects them.
+        """
+        if dt == self.dt:
+            return
+        lag = self.plan.integrator.velocity_lag
+        if lag != 0.0:
+            self.world.particles.twist[:] += lag * (dt - self.dt) * self.world.particles.acceleration
+        self.timeline.change(self.step, dt)
+        self.follow_timeline()
+
+    def follow_timeline(self) -> None:
+        """Tell the step loop what the timeline says, and count the steps to the end anew."""
+        step, time, dt = self.timeline.spans[-1]
+        before = self.timeline.spans[max(len(self.timeline.spans) - 2, 0)].dt
+        late = self.plan.integrator.after_forces * (before - dt)
+        numbers = self.world.numbers._replace(dt=dt, first_step=step, first_time=time, late=late)
+        self.world = self.world._replace(numbers=numbers)
+        self.last_step = self.gauge.last_step(dt, step, time)
+
+    def stable_step(self) -> float:
+        """Return the largest stable step of the scene as it stands, in s; infinite where nothing holds or touches."""
+        return self.keeper.limit(self.keeper.present(self.world))
 
     def _advance(self, step: int) -> int:
         with readable_errors(self.plan):

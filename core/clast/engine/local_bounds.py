@@ -38,6 +38,21 @@ def local_bounds(springs: Springs, bodies: Bodies, per_time: float = 0.0) -> Flo
     return np.asarray(np.linalg.eigvalsh(blocks[:-1])[:, -1])
 
 
+def rough_bound(springs: Springs, bodies: Bodies, per_time: float) -> float:
+    """Return a bound of the largest eigenvalue in rad²/s² that is cheaper still: traces, without directions."""
+    strengths = springs.stiffness + per_time * springs.damping
+    along, across, twist, bending = strengths.T
+    sizes = []
+    for e, number in enumerate((springs.first, springs.second)):
+        moving = np.append(bodies.inverse_mass, 0.0)[number] * np.maximum(along, across)
+        levers = across * springs.arms[:, e] ** 2 + np.maximum(twist, bending)
+        sizes.append(np.sqrt(moving + np.append(bodies.inverse_inertia, 0.0)[number] * levers))
+    sums = np.zeros(len(bodies.radius) + 1)
+    np.add.at(sums, springs.first, sizes[0] * (sizes[0] + sizes[1]))
+    np.add.at(sums, springs.second, sizes[1] * (sizes[0] + sizes[1]))
+    return float(sums[:-1].max(initial=0.0))
+
+
 def _end(springs: Springs, strengths: Floats, bodies: Bodies, e: int) -> Floats:
     """Return BᵀB of one end of every spring, (s, 6, 6), with the roots of mass and inertia divided out."""
     number = springs.second if e else springs.first

@@ -8,13 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.response import respond
+from clast.engine.response import Response, respond
+from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
 from clast.scene.plan import bond_stiffness, damping_coefficients, material_pairs, wall_shapes
 from clast.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Responses = dict[tuple[int, int], tuple[ContactLaw, Any, Response]]
 
 
 class Springs(NamedTuple):
@@ -70,10 +72,12 @@ def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
     near = np.argwhere(np.ones((len(scene.config.walls), len(scene.radius)), bool))
     everything = np.ones(len(scene.ends), bool)
     still = np.zeros((len(scene.config.walls), 3))
+    responses = contact_responses(scene, plan)
+    bonded_pairs_touch = plan.contacts is not None and plan.contacts.bonded_pairs
     return joined(
         bond_springs(scene, bodies, everything),
-        contact_springs(scene, plan, bodies, pairs, everything),
-        wall_springs(scene, plan, bodies, near, still),
+        contact_springs(scene, responses, bodies, pairs, everything & (not bonded_pairs_touch)),
+        wall_springs(scene, responses, bodies, near, still),
     )
 
 
@@ -109,14 +113,13 @@ def bond_springs(scene: Scene, bodies: Bodies, intact: NDArray[np.bool_]) -> Spr
 
 
 def contact_springs(
-    scene: Scene, plan: Blueprint, bodies: Bodies, pairs: Integers, intact: NDArray[np.bool_]
+    scene: Scene, responses: Responses, bodies: Bodies, pairs: Integers, instead: NDArray[np.bool_]
 ) -> Springs:
-    """Return the springs of the pairs (p, 2) that touch; bonded ones only where the scene lets them."""
-    if plan.contacts is None or len(pairs) == 0:
+    """Return the springs of the pairs (p, 2) that touch, but for those in whose stead a bond holds, (m,) bool."""
+    if not responses or len(pairs) == 0:
         return no_springs()
-    if not plan.contacts.bonded_pairs:
-        bonded = pair_numbers(scene, scene.ends[intact])
-        pairs = pairs[~np.isin(pair_numbers(scene, pairs), bonded)]
+    if instead.any():
+        pairs = pairs[~np.isin(pair_numbers(scene, pairs), pair_numbers(scene, scene.ends[instead]))]
     i, j = pairs.T
     d = bodies.position[j] - bodies.position[i]
     distance = np.sqrt(d[:, 0] ** 2 + d[:, 1] ** 2 + d[:, 2] ** 2)
@@ -127,8 +130,7 @@ def contact_springs(
     d, distance = d[touching], distance[touching]
     share = distance / reach if scene.config.contacts and scene.config.contacts.lever == "contact_point" else 1.0
     return touching_springs(
-        scene,
-        plan,
+        responses,
         bodies,
         first=i,
         second=j,
@@ -140,7 +142,7 @@ def contact_springs(
     )
 
 
-def wall_springs(scene: Scene, plan: Blueprint, bodies: Bodies, near: Integers, displacement: Floats) -> Springs:
+def wall_springs(scene: Scene, responses: Responses, bodies: Bodies, near: Integers, displacement: Floats) -> Springs:
     """Return the springs of the rows of ``near`` (p, 2), wall and particle, that touch.
 
     Parameters
@@ -152,7 +154,7 @@ def wall_springs(scene: Scene, plan: Blueprint, bodies: Bodies, near: Integers, 
     names = list(scene.config.materials)
     materials = [names.index(wall.material) for wall in scene.config.walls.values()]
     rows = []
-    for w, k in near.tolist() if plan.contacts is not None else ():
+    for w, k in near.tolist() if responses else ():
         nearest, shape = shapes[w]
         found = nearest(shape, tuple((bodies.position[k] - displacement[w]).tolist()))
         if found.distance < bodies.radius[k] and bodies.inverse_mass[k] > 0.0:
@@ -164,8 +166,7 @@ def wall_springs(scene: Scene, plan: Blueprint, bodies: Bodies, near: Integers, 
     radius = bodies.radius[particle]
     lever = distance if scene.config.contacts and scene.config.contacts.lever == "contact_point" else radius
     return touching_springs(
-        scene,
-        plan,
+        responses,
         bodies,
         first=particle,
         second=np.full(len(particle), len(bodies.radius)),
@@ -178,8 +179,7 @@ def wall_springs(scene: Scene, plan: Blueprint, bodies: Bodies, near: Integers, 
 
 
 def touching_springs(
-    scene: Scene,
-    plan: Blueprint,
+    responses: Responses,
     bodies: Bodies,
     first: Integers,
     second: Integers,
@@ -192,7 +192,7 @@ def touching_springs(
     """Return the springs of contacts from their effective radii and overlaps, (p,) each in m."""
     stiffness, damping = np.zeros((len(first), 4)), np.zeros((len(first), 4))
     per_mass = np.append(bodies.inverse_mass, 0.0)
-    for (a, b), (law, constants, response) in contact_responses(scene, plan).items():
+    for (a, b), (law, constants, response) in responses.items():
         rows = np.nonzero((materials == (a, b)).all(axis=1))[0]
         each = zip(radius[rows].tolist(), overlap[rows].tolist(), strict=True)
         k = np.array([law.stiffness(constants, R, delta) for R, delta in each], float)
@@ -202,13 +202,13 @@ def touching_springs(
     return Springs(first, second, normal, arms, stiffness, damping)
 
 
-def contact_responses(scene: Scene, plan: Blueprint) -> dict[tuple[int, int], Any]:
-    """Return law, constants and response by pair of materials, in either order."""
-    assert plan.contacts is not None
-    assert scene.config.contacts is not None
+def contact_responses(scene: Scene, plan: Blueprint) -> Responses:
+    """Return law, constants and response by pair of materials, in either order; nothing without contacts."""
+    if plan.contacts is None or scene.config.contacts is None:
+        return {}
     law, chosen = plan.contacts.law, scene.config.contacts.law
     k = int(np.argmin(scene.radius))
-    found = {}
+    found: Responses = {}
     for a, b, pair in material_pairs(scene):
         constants = law.constants(chosen.params, pair)
         response = respond(law, constants, plan.contacts.choices, float(scene.radius[k]), float(scene.mass[k]))

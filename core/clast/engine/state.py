@@ -120,6 +120,9 @@ class Numbers(NamedTuple):
     lever: float  # 1: forces act at the contact point, 0: at the undeformed radius
     start_kick: float
     fade: float  # share of its load that a breaking bond loses each step
+    first_step: int  # step from which the present time step is taken
+    first_time: float  # its time in s
+    late: float  # what the time since the forces before is more than usual in that step, in s
 
 
 class Team(NamedTuple):

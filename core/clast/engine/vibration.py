@@ -59,9 +59,13 @@ def largest_eigenvalue(springs: Springs, bodies: Bodies, per_time: float = 0.0) 
 
 def largest_ritz(diagonal: list[float], beside: list[float]) -> tuple[float, float]:
     """Return the largest eigenvalue of the tridiagonal matrix so far, and the residual of its Ritz pair."""
-    inner = np.array(beside[:-1])
-    values, vectors = np.linalg.eigh(np.diag(diagonal) + np.diag(inner, 1) + np.diag(inner, -1))
-    return max(float(values[-1]), 0.0), float(beside[-1] * abs(vectors[-1, -1]))
+    from scipy.linalg import eigh_tridiagonal
+
+    last = len(diagonal) - 1
+    if last == 0:
+        return max(diagonal[0], 0.0), beside[0]
+    values, vectors = eigh_tridiagonal(diagonal, beside[:-1], select="i", select_range=(last, last))
+    return max(float(values[0]), 0.0), float(beside[-1] * abs(vectors[-1, 0]))
 
 
 def inverse_roots(bodies: Bodies) -> Floats:

@@ -49,3 +49,22 @@ class Integrator:
     damping_factor: Callable[[float], float]
     order: int
     start_kick: Callable[[Any], float] = lambda params: 0.0
+
+    @property
+    def velocity_lag(self) -> float:
+        """How much later than positions velocities belong at the end of a step, as a fraction of the step.
+
+        Kicks stand for the whole time around them: their mean instant is half a step after that of the velocity.
+        """
+        at, mean = 0.0, 0.0
+        for stage in self.stages:
+            mean += stage.kick_before * at
+            at += stage.drift_before
+            mean += stage.kick_after * at
+            at += stage.drift_after
+        return mean - 0.5
+
+    @property
+    def after_forces(self) -> float:
+        """Time from the last force evaluation of a step to its end, as a fraction of the step."""
+        return self.stages[-1].drift_after

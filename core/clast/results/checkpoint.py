@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.engine.timeline import Timeline
 from clast.errors import RunError
 from clast.simulation import Simulation
 
@@ -82,6 +83,10 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
             continue
         _refuse_other(path, about, identity(simulation))
         _restore(simulation, arrays)
+        simulation.timeline = Timeline(about["timeline"])
+        simulation.keeper.allowance = float(about["allowance"])
+        simulation.keeper.estimates = int(about["estimates"])
+        simulation.follow_timeline()
         simulation.removed = int(about["removed"])
         simulation.rebuilds = int(about["rebuilds"])
         return dict(about["notes"])
@@ -106,7 +111,10 @@ def identity(simulation: Simulation) -> dict[str, Any]:
         "schema": 1,
         "scene": json.loads(json.dumps(simulation.config.resolved())),
         "kernel": simulation.kernel.digest,
-        "dt": simulation.dt,
+        "dt": simulation.timeline.spans[0].dt,
+        "timeline": simulation.timeline.spans,
+        "allowance": simulation.keeper.allowance,
+        "estimates": simulation.keeper.estimates,
         "removed": simulation.removed,
         "rebuilds": simulation.rebuilds,
     }

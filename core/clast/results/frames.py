@@ -14,15 +14,15 @@ class Frames:
 
     def __init__(self, simulation: Simulation, store: Store) -> None:
         self.store = store
-        self.last = simulation.last_step
+        self.simulation = simulation
         frames = simulation.config.output.frames
-        self.every = max(1, round(simulation.last_step / frames)) if frames else 0
+        self.every = max(1, round(simulation.planned_steps / frames)) if frames else 0
 
     def next_step(self, step: int) -> int | None:
         """Return the next multiple of the interval, and at last the end."""
-        if self.every == 0 or step >= self.last:
+        if self.every == 0 or step >= self.simulation.last_step:
             return None
-        return min(self.last, (step // self.every + 1) * self.every)
+        return min(self.simulation.last_step, self.simulation.timeline.next_multiple(step, self.every))
 
     def observe(self, simulation: Simulation) -> None:
         """Append the scene; bond loads are computed here, at the positions shown."""

@@ -28,8 +28,8 @@ class Samples:
     def __init__(self, simulation: Simulation, store: Store) -> None:
         output = simulation.config.output
         self.store = store
-        self.last = simulation.last_step
-        self.every = max(1, round(simulation.last_step / output.samples))
+        self.simulation = simulation
+        self.every = max(1, round(simulation.planned_steps / output.samples))
         self.mean = output.force == "mean"
         self.particles = np.array(output.tracks.particles, np.int64)
         self.bonds = np.array(output.tracks.bonds, np.int64)
@@ -37,9 +37,9 @@ class Samples:
 
     def next_step(self, step: int) -> int | None:
         """Return the next multiple of the interval, and at last the end."""
-        if step >= self.last:
+        if step >= self.simulation.last_step:
             return None
-        return min(self.last, (step // self.every + 1) * self.every)
+        return min(self.simulation.last_step, self.simulation.timeline.next_multiple(step, self.every))
 
     def observe(self, simulation: Simulation) -> None:
         """Append one row to every curve and track."""

@@ -128,7 +128,7 @@ class Store:
         count, bond = len(rows), cracks.bond[rows]
         area = 0.25 * np.pi * scene.diameter[bond] ** 2
         columns: tuple[NDArray[Any], ...] = (
-            cracks.step[rows] * simulation.dt,
+            simulation.timeline.times(cracks.step[rows]),
             bond,
             cracks.ends[rows, 0],
             cracks.ends[rows, 1],

@@ -64,8 +64,8 @@ class Gauge:
         assert self.axis is not None
         return float(force[self.upper] @ self.axis), float(-force[self.lower] @ self.axis)
 
-    def last_step(self, dt: float) -> int:
-        """Return the step at which the scene ends.
+    def last_step(self, dt: float, step: int = 0, time: float = 0.0) -> int:
+        """Return the step at which the scene ends, with steps of ``dt`` from a step and its time on.
 
         Raises
         ------
@@ -73,7 +73,7 @@ class Gauge:
             If the plates never reach the strain, or only after more steps than can be counted.
         """
         end = self.config.time.end
-        steps = float(end.steps) if end.steps is not None else self._end_time() / dt
+        steps = float(end.steps) if end.steps is not None else step + (self._end_time() - time) / dt
         if not steps <= MOST_STEPS:
             text = f"{steps:.3g} steps of {dt:.3g} s, more than {MOST_STEPS:.0e}; end earlier, or raise time.step"
             raise self.config.problem(("time", "end"), text)

@@ -178,6 +178,9 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, dt: float, skin: f
         lever=0.0 if config.contacts and config.contacts.lever == "radius" else 1.0,
         start_kick=float(config.integrator.part.start_kick(config.integrator.params)),
         fade=1.0 / (1 + (config.bonds.fade_steps if config.bonds else 0)),
+        first_step=0,
+        first_time=0.0,
+        late=0.0,
     )
 
 

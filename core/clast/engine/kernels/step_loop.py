@@ -10,7 +10,7 @@ import numpy as np
 
 from clast.engine.barrier import wait
 from clast.engine.compiler import compiled, inlined
-from clast.engine.state import Indices, Integers, Team, World
+from clast.engine.state import Indices, Integers, Numbers, Team, World
 from clast.parts.integrator import Stage
 
 from .bond_sweep import sweep_bonds
@@ -39,11 +39,14 @@ def stage_now(clock: Integers, start_kick: float) -> Stage:
 
 
 @inlined
-def time_since_forces(clock: Integers, start_kick: float) -> float:
-    """Return the time since the last force evaluation, as a fraction of the step."""
+def time_since_forces(clock: Integers, numbers: Numbers) -> float:
+    """Return the time since the last force evaluation in s."""
     if clock[PRIMED] == 0:
-        return 2.0 * start_kick
-    return SPANS[clock[STAGE]]
+        return 2.0 * numbers.start_kick * numbers.dt
+    span = SPANS[clock[STAGE]] * numbers.dt
+    if clock[STEP] == numbers.first_step and clock[STAGE] == 0:
+        span += numbers.late
+    return span
 
 
 @inlined
@@ -108,7 +111,7 @@ def advance(world: World, steps: int, team: Team) -> int:
     clock = world.clock if first else world.clock.copy()
     while clock[STEP] < steps or clock[PRIMED] == 0:
         stage = stage_now(clock, numbers.start_kick)
-        time = clock[STEP] * numbers.dt
+        time = numbers.first_time + (clock[STEP] - numbers.first_step) * numbers.dt
         if clock[MOVED] == 0:
             move_to_forces(world, begin, end, first, stage, time)
             if CHUNKED:
@@ -116,7 +119,7 @@ def advance(world: World, steps: int, team: Team) -> int:
             clock[MOVED] = 1
             if world.stale.any():
                 return STALE
-        span = time_since_forces(clock, numbers.start_kick) * numbers.dt
+        span = time_since_forces(clock, numbers)
         sweep_chunks(world, begin, end, active, span, clock[STEP])
         if WALLS:
             if CHUNKED:
