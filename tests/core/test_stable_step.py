@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -122,7 +123,7 @@ def test_the_step_is_shortened_as_contacts_stiffen_and_never_above_the_limit() -
         shares.append(simulation.dt / simulation.stable_step())
     spans = simulation.timeline.spans
     assert len(spans) > 2
-    assert all(later.dt < 0.95 * earlier.dt for earlier, later in zip(spans, spans[1:], strict=False))
+    assert all(later.dt < 0.95 * earlier.dt for earlier, later in pairwise(spans))
     assert max(shares) < 1.0
     assert simulation.time == pytest.approx(0.1 * 4e-3 / 2e-4, rel=1e-5)
     assert simulation.gauge.strain(simulation.world.walls) == pytest.approx(0.1, rel=1e-5)
@@ -167,7 +168,7 @@ def test_a_run_whose_step_changed_resumes_to_the_same_bytes(tmp_path: Path) -> N
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_change_of_the_step_costs_no_order(integrator: str) -> None:
-    """Half a run with steps of one size and half with others: the error falls as with equal steps, with their square."""
+    """Half a run with steps of one size, half with others: the error falls with the square of both."""
     period = 2.0 * np.pi / 2.0 * Simulation(network(integrator)).limits.network
 
     def end(steps: int, change: bool) -> np.ndarray:

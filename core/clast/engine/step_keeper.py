@@ -64,7 +64,7 @@ class StepKeeper:
         if self.plan.contacts is None or self.scene.config.time.allow_unstable:
             return None
         if step < self.every:  # first contacts stiffen fast: look after 64, 128, 256, … steps
-            return min(self.every, max(SOON, 2 ** int(step).bit_length()))
+            return min(self.every, max(SOON, 1 << int(step).bit_length()))
         return (step // self.every + 1) * self.every
 
     def look(self, world: World, dt: float, first_dt: float) -> float:
@@ -87,7 +87,8 @@ class StepKeeper:
             bound, fastest = rough_bound(contacts, bodies, self.sensitivity / dt), self._fastest(present, dt)
         # contacts that grow by one ratio raise the eigenvalue by no more; and it is below the sum of both parts'
         bonds = largest_eigenvalue(present.bonds, bodies, self.sensitivity / dt)
-        self.allowance = max(self._most(dt) - bonds, bound * self._most(dt) / fastest)
+        ratio = self._most(dt) / fastest if fastest > 0.0 else 0.0
+        self.allowance = max(self._most(dt) - bonds, ratio * bound)
         return dt
 
     def _most(self, dt: float) -> float:
