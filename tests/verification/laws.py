@@ -29,6 +29,11 @@ def soft_in_shear(params, bond):
     return c._replace(GA=0.98 * c.GA)
 
 
+def stiff_in_bending(params, bond):
+    c = BOND.constants(params, bond)
+    return c._replace(EI=1.02 * c.EI)
+
+
 def too_strong(params, bond):
     c = BOND.constants(params, bond)
     return c._replace(per_normal_strength=0.999 * c.per_normal_strength)
@@ -80,6 +85,7 @@ def clast_register(registry):
     registry.bond_model("declares_too_much", without)
     registry.bond_model("no_cylinder", replace(BOND, stiffness=no_cylinder))
     registry.bond_model("soft_in_shear", replace(BOND, constants=soft_in_shear))
+    registry.bond_model("stiff_in_bending", replace(BOND, constants=stiff_in_bending))
     registry.bond_model("too_strong", replace(BOND, constants=too_strong))
     registry.contact_law("too_rough", replace(FAITHFUL, constants=too_rough))
     registry.contact_law("pushing", replace(FAITHFUL, constants=pushing))

@@ -92,6 +92,14 @@ def test_a_bond_2_percent_too_soft_in_shear_is_caught():
     assert "shear: step in which it breaks" in failed("soft_in_shear", "bond_elastic", "--bond-model")
 
 
+def test_a_bond_2_percent_too_stiff_in_bending_is_caught_by_beams():
+    assert failed("stiff_in_bending", "beam_vibration", "--bond-model") == {"first bending frequency, rad/s"}
+    wrong = failed("stiff_in_bending", "beam_roll_up", "--bond-model")
+    assert "gap between both ends, share of the length" in wrong
+    wrong = failed("stiff_in_bending", "beam_cantilever", "--bond-model")
+    assert {f"{n} bonds: deflection of the tip, m" for n in (4, 8, 16)} <= wrong
+
+
 def test_a_strength_wrong_by_a_thousandth_is_caught():
     broken_late = {"tension", "bending", "tension and bending", "compression and bending"}
     wrong = failed("too_strong", "bond_elastic", "--bond-model")
@@ -131,6 +139,12 @@ def test_a_tangential_stiffness_wrong_by_2_percent_is_caught_where_it_sticks():
     assert {f"{each}, 400 steps: slip'/slip" for each in ("steel", "polymer")} <= failed(
         "too_soft_sideways", "sticking_impact"
     )
+
+
+def test_velocities_of_another_time_are_not_asked_for_an_energy():
+    result = verify("rotation_pair", "--integrator", "leapfrog")
+    assert result.exit_code == 0
+    assert "not applicable: the velocities of 'leapfrog' belong to another" in " ".join(result.stdout.split())
 
 
 def test_a_case_that_says_nothing_about_a_law_says_why():

@@ -96,3 +96,21 @@ def cylinder(scene: SceneConfig) -> str | None:
     if all(isclose(a, b, rel_tol=1e-9) for a, b in zip(declared(scene, beam), expected, strict=True)):
         return None
     return f"the stiffnesses that {scene.bonds.model.name!r} declares are not those of a cylinder"
+
+
+def synchronous(scene: SceneConfig) -> str | None:
+    """Ask for an integrator whose step is the same backwards: velocities belong to the time of the positions."""
+    moves = [
+        move
+        for stage in scene.integrator.part.stages
+        for move in (
+            ("kick", stage.kick_before),
+            ("drift", stage.drift_before),
+            ("kick", stage.kick_after),
+            ("drift", stage.drift_after),
+        )
+        if move[1] != 0.0
+    ]
+    if moves == moves[::-1]:
+        return None
+    return f"the velocities of {scene.integrator.name!r} belong to another time than its positions"

@@ -59,3 +59,9 @@ def follow(simulation: Simulation, read: Callable[[Simulation], Any], every: int
     if isinstance(told[0], tuple):
         return tuple(np.array(column) for column in zip(*told, strict=True))
     return np.array(told)
+
+
+def evaluation(simulation: Simulation) -> float:
+    """Return when within a step forces are last evaluated, by the positions they see, as a share of the step."""
+    drifts = [drift for stage in simulation.plan.integrator.stages for drift in (stage.drift_before, stage.drift_after)]
+    return float(sum(drifts[:-1]))

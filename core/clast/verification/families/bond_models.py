@@ -18,7 +18,7 @@ from clast.verification.closed_forms.bond_curves import Course, cracking, plasti
 from clast.verification.curves import Floats
 from clast.verification.families.bonds import beam_of, model_parameters, split
 from clast.verification.finding import Finding
-from clast.verification.reading import follow
+from clast.verification.reading import evaluation, follow
 from clast.verification.sketch import Line, Sketch
 
 EXACT = 1e-9
@@ -74,8 +74,7 @@ def step_of_breaking(simulation: Simulation, course: Course, model: Model) -> in
     if model.criterion(course, end) < 1.0:
         return simulation.last_step
     time = brentq(lambda t: model.criterion(course, t) - 1.0, 0.0, end, xtol=1e-6 * simulation.dt)
-    drifts = [drift for stage in simulation.plan.integrator.stages for drift in (stage.drift_before, stage.drift_after)]
-    return ceil(time / simulation.dt - sum(drifts[:-1]))  # positions at the last evaluation of forces within a step
+    return ceil(time / simulation.dt - evaluation(simulation))
 
 
 def judge(bench: Bench, names: Sequence[str], model: Model) -> Findings:
