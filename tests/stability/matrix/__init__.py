@@ -1,0 +1,8 @@
+"""The matrix: every group of entries, in the order of the page."""
+
+from __future__ import annotations
+
+from tests.stability.entry import Group
+from tests.stability.matrix import bonds, contacts, extremes, steps
+
+GROUPS: tuple[Group, ...] = (*steps.GROUPS, *contacts.GROUPS, *bonds.GROUPS, *extremes.GROUPS)
