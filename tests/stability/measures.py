@@ -22,9 +22,22 @@ def kinetic(ran: Ran) -> Floats:
 
 
 def energy(ran: Ran) -> Floats:
-    """Return kinetic energy and that of the bonds at every sample, in J."""
+    """Return kinetic energy and that of bonds and Hertz contacts at every sample, in J."""
     bonds = ran.bonds["energy"].sum(axis=1) if "energy" in ran.bonds else 0.0
-    return np.asarray(kinetic(ran) + bonds)
+    return np.asarray(kinetic(ran) + bonds + hertz_energy(ran))
+
+
+def hertz_energy(ran: Ran) -> Floats:
+    """Return the elastic energy 2/5 · 4/3 E* √R* δ^2.5 of all pairs at every sample, for particles of equal stiffness."""
+    scene, x = ran.simulation.scene, ran.particles["position"]
+    first = scene.config.materials[next(iter(scene.config.materials))]
+    E_star = 0.5 * first.young_modulus / (1.0 - first.poisson_ratio**2)
+    i, j = np.triu_indices(len(scene.radius), 1)
+    r_i, r_j = scene.radius[i], scene.radius[j]
+    free = ~(scene.prescribed[i] & scene.prescribed[j])
+    overlap = np.maximum(r_i + r_j - np.linalg.norm(x[:, j] - x[:, i], axis=2), 0.0)
+    each = 8.0 / 15.0 * E_star * np.sqrt(r_i * r_j / (r_i + r_j)) * overlap**2.5
+    return np.asarray(each[:, free].sum(axis=1))
 
 
 def momentum(ran: Ran) -> Floats:

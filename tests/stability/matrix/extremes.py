@@ -22,7 +22,10 @@ def moved(offset: float, expected: str = ACCURATE) -> Entry:
 
 def scaled(radius: float) -> Entry:
     """Return a head-on impact of spheres of some size."""
-    return Entry(f"radius {radius:g} m", lambda: pair(radii=(radius, radius)), lambda ran: rebound(ran, 1.0, 0.01))
+    away = {"walls.floor.point": [0, 0, -100.0 * radius]}
+    return Entry(
+        f"radius {radius:g} m", lambda: pair(radii=(radius, radius), changes=away), lambda ran: rebound(ran, 1.0, 0.01)
+    )
 
 
 def moved_bond(offset: float, expected: str = ACCURATE) -> Entry:
