@@ -28,7 +28,7 @@ def energy(ran: Ran) -> Floats:
 
 
 def hertz_energy(ran: Ran) -> Floats:
-    """Return the elastic energy 2/5 · 4/3 E* √R* δ^2.5 of all pairs at every sample, for particles of equal stiffness."""
+    """Return the elastic energy 2/5 · 4/3 E* √R* δ^2.5 of equally stiff pairs at every sample."""
     scene, x = ran.simulation.scene, ran.particles["position"]
     first = scene.config.materials[next(iter(scene.config.materials))]
     E_star = 0.5 * first.young_modulus / (1.0 - first.poisson_ratio**2)

@@ -60,10 +60,11 @@ def pair(
         Where they meet: all three coordinates, in m.
     """
     apart = 0.5 * gap * min(radii)
-    at = np.array([offset, offset, offset])
+    at = np.full(3, offset)
     ends = ((-1.0, radii[0], "first"), (1.0, radii[1], "second"))
     made = [
-        particle(at + [side * (r + apart), 0, 0], r, [-side * speed, 0, 0], material=name) for side, r, name in ends
+        particle(at + np.array([side * (r + apart), 0, 0]), r, [-side * speed, 0, 0], material=name)
+        for side, r, name in ends
     ]
     time_until = 2.0 * apart / (2.0 * speed) if speed > 0.0 else 0.0
     lasts = impact_duration(max(2.0 * speed, 1e-12), radii)

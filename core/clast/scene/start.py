@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
 from clast.scene.bonding import close_pairs
 from clast.scene.plan import material_pairs, wall_shapes
 from clast.scene.scene import Scene
+
+COARSEST = 1e-6
+"""Largest distance of two neighbouring floating-point numbers at a particle, as a share of its radius or its bonds'."""
 
 
 def check_start(scene: Scene) -> None:
@@ -17,10 +21,13 @@ def check_start(scene: Scene) -> None:
     ------
     ConfigError
         If two materials that can touch have no settings, walls have no contact law, a track names what is not there,
-        or bodies overlap too much.
+        particles are so far from the origin or so near to each other that round-off is a visible share of what moves
+        them, or bodies overlap too much.
     """
     check_contacts(scene)
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
+    _refuse_coarse_positions(scene)
+    _refuse_short_bonds(scene)
     if scene.config.contacts is not None:
         _refuse_particle_overlaps(scene)
         _refuse_wall_overlaps(scene)
@@ -55,6 +62,38 @@ def check_tracks(config: SceneConfig, particles: int, bonds: float) -> None:
             if not 0 <= number < count:
                 text = f"there is no number {number}; the number of {key} is {count:.0f}, counted from 0"
                 raise config.problem(("output", "tracks", key, at), text)
+
+
+def _refuse_coarse_positions(scene: Scene) -> None:
+    grain = _round_off(scene)
+    k = int(np.argmax(grain / scene.radius))
+    if grain[k] > COARSEST * scene.radius[k]:
+        raise scene.config.problem(
+            scene.origin(k),
+            f"particle {k} lies {np.abs(scene.position[k]).max():.4g} m from the origin, where positions are "
+            f"{grain[k]:.2g} m apart, {grain[k] / scene.radius[k]:.1g} of its radius: too coarse for overlaps. Move the "
+            "scene nearer to the origin",
+        )
+
+
+def _refuse_short_bonds(scene: Scene) -> None:
+    if len(scene.ends) == 0:
+        return
+    distance = np.linalg.norm(scene.bond_vectors, axis=1)
+    needed = _round_off(scene)[scene.ends].max(axis=1) / COARSEST
+    k = int(np.argmin(distance - needed))
+    if not distance[k] > needed[k]:
+        first, second = scene.ends[k].tolist()
+        raise scene.config.problem(
+            scene.origin(second),
+            f"the centres of {_name(scene, first)} and particle {second}, which are bonded, are {distance[k]:.2g} m "
+            "apart: too little to tell the direction of the bond. Move them apart, or remove the bond",
+        )
+
+
+def _round_off(scene: Scene) -> NDArray[np.float64]:
+    """Return how far apart floating-point numbers are at each particle, in m."""
+    return np.asarray(np.spacing(np.abs(scene.position).max(axis=1)))
 
 
 def _refuse_particle_overlaps(scene: Scene) -> None:

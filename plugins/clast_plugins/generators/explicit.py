@@ -99,8 +99,10 @@ def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[Explic
             yield problem(between, f"connects particle {i} with itself; two different particles are needed")
         elif first != k:
             yield problem(between, f"connects particles {i} and {j}, as bonds.{first} does; remove one of them")
-        elif bond.length is None and particles[i].position == particles[j].position:
-            yield problem(("bonds", k), f"particles {i} and {j} have one centre; give the bond a 'length'")
+        elif particles[i].position == particles[j].position:
+            yield problem(
+                ("bonds", k), f"particles {i} and {j} have one centre, so their bond has no direction; move one of them"
+            )
 
 
 def generate(params: Explicit, folder: Path) -> Packing:

@@ -101,8 +101,8 @@ def read_bonds(path: Path, particles: ParticleTable) -> BondList:
             table.wrong(line, f"a bond from particle {row['i']} to itself; two different particles are needed")
             continue
         new_bond(line, " and ".join(str(particles.ids[end]) for end in sorted((i, j))))
-        if not given and np.array_equal(particles.position[i], particles.position[j]):
-            table.wrong(line, f"particles {row['i']} and {row['j']} have one centre; give an initial_length")
+        if np.array_equal(particles.position[i], particles.position[j]):
+            table.wrong(line, f"particles {row['i']} and {row['j']} have one centre, so their bond has no direction")
     table.refuse_problems()
     found = np.array(measures)
     return BondList(np.array(ends, np.int64), found[:, 0].copy(), found[:, 1].copy())

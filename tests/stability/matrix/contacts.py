@@ -175,8 +175,8 @@ GROUPS = (
     Group(
         "sizes",
         "Size ratio with friction",
-        "A sphere rolls off a fixed one of 10 mm (μ = 10); a small grain falls through the pore of three such (μ = 0.5): "
-        "with friction that sees velocities of another instant than positions, small grains stay trapped on large ones.",
+        "A sphere rolls off a fixed one of 10 mm (μ = 10); a small grain falls through a pore between three (μ = 0.5). "
+        "Where friction takes velocities from another instant than positions, small grains stay trapped.",
         (*map(rolling_off, (1, 3, 10, 30, 100)), *map(through_a_pore, (10, 30, 100))),
     ),
     Group(

@@ -73,8 +73,8 @@ GROUPS = (
     Group(
         "step_bonds",
         "Time step: bonds",
-        "27 spheres in a cubic grid, 54 elastic bonds, random velocities of 1 m/s, no damping, 20 000 steps. The limit is "
-        "`spectral`.",
+        "27 spheres in a cubic grid, 54 elastic bonds, random velocities of 1 m/s, no damping, 20 000 steps. The "
+        "limit is `spectral`.",
         sweep(shaken_block, lambda ran: drift(ran, 0.01)),
     ),
     Group(
