@@ -71,8 +71,8 @@ def _refuse_coarse_positions(scene: Scene) -> None:
         raise scene.config.problem(
             scene.origin(k),
             f"particle {k} lies {np.abs(scene.position[k]).max():.4g} m from the origin, where positions are "
-            f"{grain[k]:.2g} m apart, {grain[k] / scene.radius[k]:.1g} of its radius: too coarse for overlaps. Move the "
-            "scene nearer to the origin",
+            f"{grain[k]:.2g} m apart, {grain[k] / scene.radius[k]:.1g} of its radius: too coarse for overlaps. "
+            "Move the scene nearer to the origin",
         )
 
 

@@ -84,7 +84,7 @@ def test_senseless_bonds_are_refused(bonds: list[dict[str, Any]], told: str) -> 
 
 
 def test_a_bond_of_no_length_is_refused() -> None:
-    with pytest.raises(ValidationError, match="one centre; give the bond a 'length'"):
+    with pytest.raises(ValidationError, match="one centre, so their bond has no direction"):
         scene(particle(0), particle(0), bonds=[{"between": [0, 1], "diameter": 1}])
 
 

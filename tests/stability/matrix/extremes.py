@@ -40,7 +40,11 @@ def spinning_pair(steps: int, offset: float = 0.0, changes: dict[str, Any] | Non
         particle(offset + np.array([-1.05e-3, 0, 0]), 1e-3, [0.1, -0.5, 0], [20, 0, 300]),
         particle(offset + np.array([1.05e-3, 0, 0]), 1e-3, [-0.1, 0.5, 0], [-20, 30, 500]),
     ]
-    given = {"time.end": {"steps": steps}, "time.step": {"rule": "spectral", "factor": 0.2}, "output.samples": 20_000}
+    given = {
+        "time.end": {"steps": steps},
+        "time.step": {"rule": "spectral", "factor": 0.2},
+        "output.samples": min(20_000, steps // 10),
+    }
     return bonded(made, [(0, 1)], given | dict(changes or {}))
 
 
