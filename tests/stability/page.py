@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tests.stability.entry import ACCURATE, GARBAGE, REFUSED, STOPPED, Verdict
 from tests.stability.matrix import GROUPS
 
+CHANGED = re.compile(r"^change of '[^']*': ")
 PICTURE = Path("img") / "stability.png"
 OPENING = """\
 # Stability under stress
@@ -53,6 +55,6 @@ def outcome(verdict: Verdict) -> str:
     answer = verdict.answer
     if answer is None:
         kept = ", checkpoint kept" if verdict.kind == STOPPED else ""
-        return f"{verdict.kind}{kept}: {' '.join(verdict.message.split())}"
+        return f"{verdict.kind}{kept}: {CHANGED.sub('', ' '.join(verdict.message.split()))}"
     number = f"{answer.error:.1g}, bound {answer.bound:g}"
     return f"stable, accurate ({number})" if verdict.kind == ACCURATE else f"**{GARBAGE}** ({number})"

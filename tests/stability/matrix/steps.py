@@ -54,11 +54,13 @@ def comes_to_rest(ran: Ran) -> Answer:
     return Answer("comes to rest", float(energy[-1] / energy[0]) if np.isfinite(energy[-1]) else np.inf, 1e-3)
 
 
-def sweep(make: Callable[[dict[str, Any]], SceneConfig], judge: Callable[[Ran], Answer]) -> tuple[Entry, ...]:
+def sweep(
+    make: Callable[[dict[str, Any]], SceneConfig], judge: Callable[[Ran], Answer], what: str = ""
+) -> tuple[Entry, ...]:
     """Return a scene at every share of its true limit; above it as it stands, and with ``allow_unstable``."""
 
     def entry(share: float, expected: str, changes: dict[str, Any]) -> Entry:
-        name = f"{share:g} × limit{', allow_unstable' if changes else ''}"
+        name = f"{what}{share:g} × limit{', allow_unstable' if changes else ''}"
         short = share in (0.95, 1.05)
         return Entry(name, lambda: at_share(make, share, changes), judge, expected, short, share)
 
@@ -88,8 +90,8 @@ GROUPS = (
         "Time step: damped contacts",
         "The same chain with a restitution of 0.5, and of 0.",
         (
-            *sweep(lambda changes: pressed_chain(0.5, changes), comes_to_rest),
-            *sweep(lambda changes: pressed_chain(0.0, changes), comes_to_rest),
+            *sweep(lambda changes: pressed_chain(0.5, changes), comes_to_rest, "e = 0.5: "),
+            *sweep(lambda changes: pressed_chain(0.0, changes), comes_to_rest, "e = 0: "),
         ),
     ),
 )
