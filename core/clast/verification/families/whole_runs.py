@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
 import numpy as np
 
+from clast.results import checkpoint
 from clast.simulation import Simulation
 from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings
@@ -69,11 +73,24 @@ def judge_neighbours(bench: Bench) -> Findings:
         yield Finding(f"{name}: difference of any position, velocity, spin", 0.0, difference, 0.0, True)
 
 
+def judge_resume(bench: Bench) -> Findings:
+    """Stop half-way, go on from the checkpoint in a new simulation, and compare with the run that was never stopped."""
+    whole, stopped, resumed = bench.run(), bench.start(), bench.start()
+    stopped.advance_to(stopped.last_step // 2)
+    with TemporaryDirectory() as folder:
+        checkpoint.save(Path(folder), stopped, {})
+        checkpoint.load(Path(folder), resumed)
+    resumed.advance_to(resumed.last_step)
+    difference = max(farthest(a, b) for a, b in zip(motion(whole), motion(resumed), strict=True))
+    yield Finding("resumed half-way: difference of any position, velocity, spin", 0.0, difference, 0.0, True)
+
+
 FAMILY = Family(
     "whole_runs",
     "Whole runs",
     "Two free cubes of bonded spheres collide off-centre and spinning: bonds break, pieces touch, slide and roll. "
-    "Momentum and angular momentum change by rounding only, and how neighbours are found changes not a bit.",
+    "Momentum and angular momentum change by rounding only. How neighbours are found, and whether a run is stopped and "
+    "resumed, changes not a bit.",
     (
         Case(
             "run_momentum",
@@ -88,6 +105,13 @@ FAMILY = Family(
             "run_clusters",
             judge_neighbours,
             "the same bits: lists only tell which pairs may touch",
+        ),
+        Case(
+            "run_resume",
+            "a run that is stopped and resumed is the same run",
+            "run_clusters",
+            judge_resume,
+            "the same bits",
         ),
     ),
 )
