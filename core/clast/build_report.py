@@ -74,10 +74,7 @@ def scene_rows(scene: Scene) -> Rows:
     degree = np.bincount(scene.ends.ravel(), minlength=n)
     rows = [
         ("particles", f"{n}, radii {scene.radius.min():.4g} to {scene.radius.max():.4g} m"),
-        (
-            "mass",
-            f"{scene.mass.sum() / scene.config.time.mass_scaling:.4g} kg, scaled by {scene.config.time.mass_scaling:g}",
-        ),
+        ("mass", mass_text(scene)),
         (
             "bonds",
             f"{len(scene.ends)}, {bond_coordination(n, bonds):.2f} a particle ({degree.min()} to {degree.max()})",
@@ -87,6 +84,18 @@ def scene_rows(scene: Scene) -> Rows:
     ]
     loose = int(np.count_nonzero(degree == 0)) if len(scene.ends) else 0
     return rows + ([("particles without a bond", str(loose))] if loose else [])
+
+
+def mass_text(scene: Scene) -> str:
+    """Return the true mass, and what scaling adds to it."""
+    true, time = float(scene.true_mass.sum()), scene.config.time
+    text = f"{true:.4g} kg, scaled by {time.mass_scaling:g}"
+    if time.selective_mass_scaling is None:
+        return text
+    uniform = time.mass_scaling * scene.true_mass
+    heavier = int(np.count_nonzero(scene.mass > uniform * (1.0 + 1e-9)))
+    more = float((scene.mass - uniform).sum())
+    return f"{text}; {heavier} particles made heavier, by {more:.4g} kg, {more / uniform.sum():.2%}, in all"
 
 
 def generator_rows(told: object) -> Rows:

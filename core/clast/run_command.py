@@ -173,6 +173,10 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         rows.append(("particles that left", f"{summary['particles_removed']}"))
     rate = summary["steps_per_s"]
     rows.append(("steps", steps_text(summary)))
+    if summary.get("particles_made_heavier"):
+        share = summary["added_mass_share_of_kinetic_energy"]
+        text = f"{summary['particles_made_heavier']} particles, {summary['added_mass_kg']:.3g} kg more in all"
+        rows.append(("made heavier", text + (f", {share:.1%} of the kinetic energy" if share is not None else "")))
     rows.append(("run time", f"{duration(summary['wall_time_s'])}, {rate:,.0f} steps/s" if rate else "none"))
     rows.append(("memory", f"{summary['memory_MB']:.0f} MB"))
     return rows

@@ -195,6 +195,7 @@ class _Session:
                 file = self.folder / f"tracks_{what}.csv"
                 written[f"tracks of {what}"] = Written(curves.write(file, {"time_s": run.curves["time_s"], **columns}))
             told = summary.summarise(self.simulation, self.parts, run.curves, elapsed, steps)
+            told |= summary.mass_scaling_results(self.simulation, run)
             written["summary"] = Written(summary.write(self.folder, told))
         writers = [chosen.name for chosen in self.simulation.config.output.writers]
         written |= writing.write(self.folder, writers, self.listener.writing)

@@ -193,3 +193,55 @@ def test_a_rule_without_any_limit_says_so(tmp_path: Path) -> None:
     }
     with pytest.raises(ConfigError, match=r"time\.step: no limit applies to this scene"):
         Simulation(from_mapping(alone))
+
+
+def uneven(**changes: Any) -> SceneConfig:
+    """Return a cluster in which one sphere is much smaller than the others, falling freely."""
+    data = network("midstep").document.data
+    spheres = [dict(each) for each in data["particles"]["particles"]]
+    spheres[13]["radius"] = 0.4e-3
+    time = {"end": {"steps": 2000}, **changes}
+    gravity = [{"type": "gravity", "acceleration": [0, 0, -10.0]}]
+    return from_mapping(
+        dict(data) | {"particles": data["particles"] | {"particles": spheres}, "time": time, "body_forces": gravity}
+    )
+
+
+def test_only_particles_that_hold_the_step_back_are_made_heavier() -> None:
+    plain = Simulation(uneven())
+    target = 1.5 * plain.limits.spectral
+    scaled = Simulation(uneven(selective_mass_scaling=target))
+    heavier = scaled.scene.mass / plain.scene.mass
+    assert scaled.limits.spectral >= target
+    assert scaled.dt >= 0.8 * target
+    assert heavier.argmax() == 13
+    assert np.count_nonzero(heavier > 1.0) < 14
+    assert heavier.min() == 1.0
+    bounds = Simulation(uneven()).scene
+    assert np.array_equal(bounds.mass, plain.scene.mass)
+
+
+def test_heavier_particles_keep_their_weight_and_fall_as_one_with_the_rest(tmp_path: Path) -> None:
+    from clast import run_scene
+
+    scene = uneven(selective_mass_scaling=1.5 * Simulation(uneven()).limits.spectral)
+    told = run_scene(scene.changed({"output.frames": 10}), tmp_path / "run").summary
+    simulation = Simulation(scene)
+    simulation.advance_to(2000)
+    masses, true = simulation.scene.mass, simulation.scene.true_mass
+    v = simulation.world.particles.twist[:, V + 2]
+    weight = -10.0 * true.sum() * simulation.time
+    assert masses @ v == pytest.approx(weight + masses @ simulation.scene.velocity[:, 2], rel=1e-9)
+    assert told["particles_made_heavier"] >= 1
+    assert told["added_mass_kg"] == pytest.approx(masses.sum() - true.sum())
+    assert 0.0 < told["added_mass_share_of_kinetic_energy"] < 1.0
+    assert told["added_mass_share"] == pytest.approx(masses.sum() / true.sum() - 1.0)
+
+
+def test_check_build_tells_what_is_made_heavier() -> None:
+    from clast.build_report import mass_text
+    from clast.scene.scene import build_scene
+
+    target = 1.5 * Simulation(uneven()).limits.spectral
+    assert "particles made heavier, by" in mass_text(build_scene(uneven(selective_mass_scaling=target)))
+    assert "made heavier" not in mass_text(build_scene(uneven()))

@@ -196,6 +196,10 @@ class TimeSettings(Params):
         Field(description="A fixed time step, or a rule"),
     ] = StepRule(rule="spectral")
     mass_scaling: Annotated[Number, Field(ge=1, description="Factor on all masses")] = 1.0
+    selective_mass_scaling: Annotated[
+        Annotated[Time, Field(gt=0)] | None,
+        Field(description="Stable step for which particles that do not allow it are made heavier, and only those"),
+    ] = None
     end: Annotated[End, Field(description="When the run ends")]
     allow_unstable: Annotated[bool, Field(description="Allow a time step above the limit")] = False
 

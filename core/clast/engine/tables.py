@@ -18,6 +18,7 @@ from clast.engine.kernels.layout import (
     LANES,
     MATERIAL,
     RADIUS,
+    WEIGHT,
     F,
     M,
     Q,
@@ -38,10 +39,12 @@ def particle_tables(
     spin: Floats,
     material: Integers,
     prescribed: NDArray[np.bool_],
+    weight: Floats,
     applied: Floats,
 ) -> Particles:
     """Return the tables of n particles: (n, 3) positions, velocities and spins, (n,) all else, SI.
 
+    ``weight`` is the share of its mass that body forces act on: less than 1 for a particle that was made heavier.
     ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows.
     Prescribed particles get no inverse mass and inertia, so nothing changes their velocity and spin.
     """
@@ -54,6 +57,7 @@ def particle_tables(
     twist[:, V : V + 3] = velocity
     twist[:, W : W + 3] = spin
     body[:, MATERIAL] = material
+    body[:, WEIGHT] = weight
     body[free, INVERSE_MASS] = 1.0 / mass[free]
     body[free, INVERSE_INERTIA] = 2.5 / (mass[free] * radius[free] ** 2)
     return Particles(

@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.engine.mass_scaling import added_mass
 from clast.engine.sources import source_files
 from clast.engine.time_step import ruling
 from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
+from clast.results.run import Run
 from clast.simulation import Simulation
 
 FILE = "summary.json"
@@ -73,6 +75,29 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "largest_fragment_particles": int(sizes.max(initial=0)),
         "memory_MB": peak_memory(),
     } | compression_results(simulation, curves)
+
+
+def mass_scaling_results(simulation: Simulation, run: Run) -> dict[str, Any]:
+    """Return what mass scaling adds, in kg and as a share, and its share of the kinetic energy; else nothing.
+
+    The kinetic energy is that of translation, summed over all frames.
+    """
+    scene = simulation.scene
+    added = added_mass(scene)
+    if not (added > 1e-9 * scene.true_mass).any():
+        return {}
+    extra = whole = 0.0
+    for k in range(run.n_frames):
+        square = np.sum(run.frame(k).velocity.astype(float) ** 2, axis=1)
+        extra, whole = extra + float(np.sum(added * square)), whole + float(np.sum(scene.mass * square))
+    uniform = scene.config.time.mass_scaling * scene.true_mass
+    return {
+        "added_mass_kg": float(added.sum()),
+        "added_mass_share": float(added.sum() / scene.true_mass.sum()),
+        "particles_made_heavier": int(np.count_nonzero(scene.mass > uniform * (1.0 + 1e-9))),
+        "heaviest_factor": float((scene.mass / scene.true_mass).max()),
+        "added_mass_share_of_kinetic_energy": extra / whole if whole > 0.0 else None,
+    }
 
 
 def versions() -> dict[str, str]:

@@ -133,6 +133,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
             scene.spin,
             scene.material,
             scene.prescribed,
+            weights(scene),
             _applied_loads(scene),
         ),
         bonds=bonds,
@@ -152,6 +153,13 @@ def _applied_loads(scene: Scene) -> Floats:
     """Return the constant force and torque on each particle, (n, 6); no rows where none acts."""
     loads = np.column_stack([scene.force, scene.torque])
     return loads if loads.any() else loads[:0]
+
+
+def weights(scene: Scene) -> Floats:
+    """Return the share of its mass that body forces act on, (n,): below 1 where a particle was made heavier."""
+    if scene.config.time.selective_mass_scaling is None:
+        return np.ones(len(scene.radius))
+    return scene.true_mass * scene.config.time.mass_scaling / scene.mass
 
 
 def _scratch_slots(plan: Blueprint) -> int:

@@ -43,7 +43,7 @@ class Scene:
     position, velocity, spin : (n, 3) float64
         m, m/s, rad/s.
     radius, mass : (n,) float64
-        m and kg; masses are scaled by ``time.mass_scaling``.
+        m and kg; masses are scaled by ``time.mass_scaling`` and ``time.selective_mass_scaling``.
     material, grain : (n,) int64
         Index into ``config.materials``, and number of the grain, −1 for loose particles.
     prescribed : (n,) bool
@@ -92,20 +92,32 @@ class Scene:
             R = R[0]
         return BondGeometry(self.length, R, np.pi * R**2, 0.25 * np.pi * R**4)
 
+    @property
+    def true_mass(self) -> Floats:
+        """Density times volume of every particle, (n,) in kg: the mass before any scaling."""
+        density = np.array([each.density for each in self.config.materials.values()])[self.material]
+        return np.asarray(density * 4.0 / 3.0 * np.pi * self.radius**3)
+
     def origin(self, particle: int) -> KeyPath | str:
         """Where the user wrote a particle: a key path of the scene, or file and line."""
         return next(each for each in reversed(self.origins) if each.first <= particle).place(particle)
 
 
 def build_scene(config: SceneConfig) -> Scene:
-    """Run the generators of a config and join what they make.
+    """Run the generators of a config, join what they make, and make heavier what the config wants heavier.
 
     Raises
     ------
     PackingError, ConfigError
         From the generators, and from :func:`join`.
     """
-    return join(config, [(chosen, generated(config, chosen)) for chosen in config.generators])
+    scene = join(config, [(chosen, generated(config, chosen)) for chosen in config.generators])
+    step = config.time.selective_mass_scaling
+    if step is None:
+        return scene
+    from clast.engine.mass_scaling import with_heavier_particles
+
+    return with_heavier_particles(scene, step)
 
 
 def generated(config: SceneConfig, chosen: Chosen) -> Packing:

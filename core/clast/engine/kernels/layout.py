@@ -9,7 +9,7 @@ LANES = 64
 X, RADIUS, Q = 0, 3, 4  # pose: position, radius, orientation (w, x, y, z)
 V, W = 0, 4  # twist and seen: velocity, 0, angular velocity, 0
 F, M = 0, 4  # load and acceleration: force, 0, moment, 0; acceleration and angular acceleration likewise
-INVERSE_MASS, INVERSE_INERTIA, MATERIAL = 0, 1, 2  # body: 1/m, 1/I, material, 0
+INVERSE_MASS, INVERSE_INERTIA, MATERIAL, WEIGHT = 0, 1, 2, 3  # body: 1/m, 1/I, material, share that has weight
 
 # bond tables: the first two slots of every bond
 INDEX, INTACT = 0, 1

@@ -8,7 +8,7 @@ from clast.maths.rotation import turn
 from clast.parts.integrator import Stage
 
 from .lanes import put, vector
-from .layout import INVERSE_INERTIA, INVERSE_MASS, LANES, TURN_Q, TURN_W, F, M, Q, V, W, X
+from .layout import INVERSE_INERTIA, INVERSE_MASS, LANES, TURN_Q, TURN_W, WEIGHT, F, M, Q, V, W, X
 from .slots import (
     APPLIED_LOADS,
     BODY_FORCES,
@@ -126,7 +126,7 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
             time,
         )
         for c in range(3):
-            acceleration[k, F + c] += g[c]
+            acceleration[k, F + c] += particles.body[k, WEIGHT] * g[c]
 
 
 @inlined
