@@ -165,7 +165,7 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
         search = scene.config.neighbours.search.part
         slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt)
         pairs = find_pairs(
-            world.particles, world.chunks, world.bonds, empty_pairs(world.chunks, plan.history), search, slack
+            world.particles, world.chunks, world.bonds, empty_pairs(world.chunks, plan.remembered), search, slack
         )
         count = len(pairs.first)
         if count:

@@ -10,6 +10,7 @@ from typing import Any
 
 from clast.config.scene import SceneConfig, load
 from clast.forecast import duration, run_seconds, time_concerns
+from clast.results.energy import sentence
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
 
@@ -171,6 +172,8 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         rows.append(("fragments", f"{summary['fragments']}"))
     if summary["particles_removed"]:
         rows.append(("particles that left", f"{summary['particles_removed']}"))
+    if "energy" in summary:
+        rows.append(("energy ledger", sentence(summary["energy"])))
     rate = summary["steps_per_s"]
     rows.append(("steps", steps_text(summary)))
     if summary.get("particles_made_heavier"):

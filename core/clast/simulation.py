@@ -10,7 +10,19 @@ import numpy as np
 from clast.config.scene import SceneConfig
 from clast.engine.assemble import Kernel, assemble
 from clast.engine.crew import Crew
-from clast.engine.kernels.layout import INTACT, INVERSE_INERTIA, INVERSE_MASS, STALE, STEP, V, X
+from clast.engine.kernels.layout import (
+    INTACT,
+    INVERSE_INERTIA,
+    INVERSE_MASS,
+    LEFT,
+    PRIMED,
+    STALE,
+    START,
+    STEP,
+    V,
+    X,
+)
+from clast.engine.ledger import Ledger, read_ledger
 from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.rehearsal import readable_errors, try_laws
 from clast.engine.state import Floats, World
@@ -86,6 +98,8 @@ class Simulation:
         self.renew_lists()
         if self.plan.contacts is not None and self.plan.contacts.rests:
             relieve(self.scene, self.world.pairs)
+        if self.plan.ledger:
+            self.world.ledger[-1, START] = self.ledger().stored
 
     @property
     def step(self) -> int:
@@ -205,6 +219,12 @@ class Simulation:
         self.kernel.observe(self.world, output)
         return output
 
+    def ledger(self) -> Ledger:
+        """Return where all energy is now; work and losses are only known with ``output.ledger``."""
+        elastic = np.zeros(2)
+        self.kernel.energies(self.world, bool(self.world.clock[PRIMED]), elastic)
+        return read_ledger(self.world, *(float(each) for each in elastic))
+
     def _refuse_blow_up(self) -> None:
         particles = self.world.particles
         here = particles.present != 0
@@ -230,6 +250,7 @@ class Simulation:
         leaving = outside & (particles.present != 0)
         if not leaving.any():
             return
+        before = self.ledger().stored if self.plan.ledger else 0.0
         self.removed += int(leaving.sum())
         particles.present[leaving] = 0
         particles.twist[leaving] = particles.acceleration[leaving] = 0.0
@@ -237,6 +258,8 @@ class Simulation:
         if len(bonds.first):
             let_go = leaving[bonds.first] | leaving[bonds.second]
             slot_view(bonds, INTACT)[let_go] = 0.0
+        if self.plan.ledger:
+            self.world.ledger[-1, LEFT] += before - self.ledger().stored
 
 
 def choose_skin(scene: Scene) -> Skin:

@@ -73,7 +73,7 @@ def sweeps(kernels: Kernels) -> dict[str, Callable[..., None]]:
 
 def bond_phases(kernels: Kernels) -> dict[str, Callable[..., None]]:
     """Return functions of (world, repeats) that do one phase of the bond sweep; scenes of one chunk."""
-    gather, lane_work, scatter = (kernels.get("bond_sweep", name) for name in ("gather", "bond_lane", "scatter"))
+    gather, lane_work, scatter = (kernels.get("bond_lane", name) for name in ("gather", "bond_lane", "scatter"))
     read_uniforms = kernels.get("slots", "read_uniforms")
 
     @njit(**INNER)

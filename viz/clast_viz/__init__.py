@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from clast import hookimpl
 from clast.parts.writer import Writer
-from clast_viz import figure, picture, recording, vtk
+from clast_viz import energy, figure, picture, recording, vtk
 
 if TYPE_CHECKING:
     from clast.plugins.registry import Registry
@@ -19,7 +19,7 @@ CLAST_API = 1
 
 @hookimpl
 def clast_register(registry: Registry) -> None:
-    """Register the four writers."""
+    """Register the writers."""
     registry.writer(
         "recording",
         Writer(
@@ -45,6 +45,16 @@ def clast_register(registry: Registry) -> None:
             Params=figure.FigureParams,
             file=figure.FILE,
             write=figure.write_figure,
+            needs_frames=False,
+        ),
+    )
+    registry.writer(
+        "energy",
+        Writer(
+            summary="where the work that goes into a scene stays, over strain or time; needs output.ledger",
+            Params=energy.EnergyParams,
+            file=energy.FILE,
+            write=energy.write_energy,
             needs_frames=False,
         ),
     )

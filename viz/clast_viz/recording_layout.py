@@ -120,6 +120,9 @@ def _series_views(run: Run) -> list[Any]:
     forces = [entry.entity for column, entry in series.items() if column.startswith("force_")]
     if forces:
         views.append(("Forces on the walls [N]", forces))
+    energies = [entry.entity for column, entry in series.items() if column.startswith("energy_")]
+    if energies:
+        views.append(("Energy [J]", energies))
     shown = [
         rrb.TimeSeriesView(origin="/", contents=[f"+ /{entity}" for entity in entities], name=name)
         for name, entities in views

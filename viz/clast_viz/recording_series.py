@@ -8,6 +8,7 @@ import numpy as np
 
 from clast.results.run import Frame, Run
 from clast_viz.curves import has_compression, peak
+from clast_viz.energy import BANDS
 from clast_viz.recording_time import Timelines
 
 
@@ -37,7 +38,21 @@ def shown_series(run: Run) -> dict[str, Series]:
         label = column.removesuffix("_N").replace("_", " ") + " [N]"
         entity = f"curves/{column.removesuffix('_N')}"
         series[column] = Series(entity, label, 1.0, FORCE_COLOURS[k % len(FORCE_COLOURS)])
+    for band in BANDS:
+        for name in band.terms:
+            column = f"energy_{name}_J"
+            if np.any(run.curves.get(column, 0.0)):
+                series[column] = Series(f"energy/{name}", name.replace("_", " ") + " [J]", 1.0, rgb(band.colour))
     return series
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """Return a colour in hexadecimal as three numbers.
+
+    >>> rgb("#ff8000")
+    (255, 128, 0)
+    """
+    return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
 
 
 def log_curves(stream: Any, run: Run, timelines: Timelines) -> None:

@@ -11,6 +11,7 @@ from clast.config.quantities import Density, Length, Number, Point, Stress, Time
 from clast.parts.params import Params
 
 DEFAULT_WRITERS = ("recording", "vtk", "figure", "picture")
+LEDGER_WRITER = "energy"
 
 
 class Material(Params):
@@ -208,7 +209,8 @@ def _writers_or_default(given: Any, info: ValidationInfo) -> Any:
     if given is not None:
         return given
     known = registry_of(info).names("writer")
-    return [name for name in DEFAULT_WRITERS if name in known]
+    wanted = [*DEFAULT_WRITERS, LEDGER_WRITER] if info.data.get("ledger") else DEFAULT_WRITERS
+    return [name for name in wanted if name in known]
 
 
 class Tracks(Params):
@@ -228,6 +230,9 @@ class Output(Params):
         Literal["instantaneous", "mean"],
         Field(description="Wall force at the sample, or its mean since the sample before"),
     ] = "instantaneous"
+    ledger: Annotated[
+        bool, Field(description="Whether energies are booked: where the work that goes into the scene stays")
+    ] = False
     writers: Annotated[
         tuple[Annotated[Chosen, PartOf("writer")], ...],
         BeforeValidator(_writers_or_default),

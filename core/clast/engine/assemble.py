@@ -33,6 +33,8 @@ class Kernel:
         See ``kernels.step_loop.advance``.
     observe : (world, output) -> None
         See ``kernels.observe.observe``.
+    energies : (world, moving, found) -> None
+        See ``kernels.energies.energies``.
     near_walls : (particles, walls, slack, wall_slack, near) -> None
         See ``kernels.near_walls.near_walls``.
     digest : str
@@ -43,6 +45,7 @@ class Kernel:
 
     advance: Callable[..., int]
     observe: Callable[..., None]
+    energies: Callable[..., None]
     near_walls: Callable[..., None]
     digest: str
     fresh: bool
@@ -84,11 +87,16 @@ def assemble(plan: Blueprint) -> Kernel:
     _write_package(folder, text)
     _register([*plan.functions(), *helpers])
     package = _import_package(name, folder)
-    advance, observe, near_walls = (
+    advance, observe, energies, near_walls = (
         Entry(getattr(_submodule(package, file), function), folder / "lock")
-        for file, function in (("step_loop", "advance"), ("observe", "observe"), ("near_walls", "near_walls"))
+        for file, function in (
+            ("step_loop", "advance"),
+            ("observe", "observe"),
+            ("energies", "energies"),
+            ("near_walls", "near_walls"),
+        )
     )
-    return Kernel(advance, observe, near_walls, name.removeprefix("clast_kernel_"), fresh=not advance.on_disk)
+    return Kernel(advance, observe, energies, near_walls, name.removeprefix("clast_kernel_"), fresh=not advance.on_disk)
 
 
 def _template_helpers() -> list[Callable[..., Any]]:

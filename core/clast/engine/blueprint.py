@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from clast.engine.records import width
 from clast.parts.bond_kinematics import BondKinematics
 from clast.parts.bond_model import BondModel
 from clast.parts.contact_law import ContactLaw, Features
@@ -61,8 +62,8 @@ class ContactPlan:
 class Blueprint:
     """Everything the assembler needs to know; run-time numbers are not part of it.
 
-    ``applied_loads`` is whether a constant force or torque acts on some particle, ``chunked`` whether the scene is cut
-    into chunks that threads can share.
+    ``applied_loads`` is whether a constant force or torque acts on some particle, ``ledger`` whether energies are
+    booked, ``chunked`` whether the scene is cut into chunks that threads can share.
     """
 
     integrator: Integrator
@@ -72,6 +73,7 @@ class Blueprint:
     motions: tuple[Motion, ...] = ()
     body_forces: tuple[BodyForce, ...] = ()
     applied_loads: bool = False
+    ledger: bool = False
     chunked: bool = False
 
     @property
@@ -107,6 +109,13 @@ class Blueprint:
             return None
         return self.contacts.law.History
 
+    @property
+    def remembered(self) -> int:
+        """Numbers that a contact keeps from one force evaluation to the next: its normal, its history, its drag."""
+        books = self.ledger and self.contacts is not None and self.contacts.law.losses is not None
+        kept = width(self.history) + (3 if books else 0)
+        return 3 + kept if kept else 0
+
     def functions(self) -> list[Callable[..., Any]]:
         """Return every function of the parts that is compiled."""
         found: list[Callable[..., Any] | None] = []
@@ -123,6 +132,7 @@ class Blueprint:
             found += [model.flow, model.overload, model.on_event]
         if self.contacts is not None:
             found += [self.contacts.law.load, self.contacts.law.energy]
+            found += [self.contacts.law.losses] if self.ledger else []
         found += [wall.nearest for wall in self.walls]
         found += [motion.velocity for motion in self.motions]
         found += [force.acceleration for force in self.body_forces]

@@ -77,6 +77,10 @@ def _flags(plan: Blueprint) -> str:
         "WALLS": bool(plan.walls),
         "BODY_FORCES": bool(plan.body_forces),
         "APPLIED_LOADS": plan.applied_loads,
+        "LEDGER": plan.ledger,
+        "ROLLS": contacts is not None and contacts.features.rolling,
+        "REMEMBERS": plan.remembered > 0,
+        "CONTACT_LOSSES": plan.ledger and contacts is not None and contacts.law.losses is not None,
         "ORIENTATION": plan.orientation,
         "SPIN": plan.spin,
         "VELOCITY_FORCES": plan.velocity_forces,
@@ -136,7 +140,7 @@ def _bonds(plan: Blueprint) -> str:
         names = ["measure", "end_loads", "load", "flow", "failure", "mode", "energy", "overload", "on_event"]
         readers = ["uniforms", "reference", "constants", "damping", "kinematic_state", "bond_state"]
         lines = [f"bond_{name} = nothing" for name in names] + [f"read_{name} = nothing" for name in readers]
-        return "\n".join([*lines, "write_kinematic_state = write_bond_state = nothing"])
+        return "\n".join([*lines, "write_kinematic_state = write_bond_state = reflected = nothing"])
     bonds, at = plan.bonds, bond_offsets(plan.bonds)
     model, kinematics = bonds.model, bonds.kinematics
     lines = [
@@ -157,10 +161,20 @@ def _bonds(plan: Blueprint) -> str:
         _writer("write_kinematic_state", kinematics.State, at["kinematic_state"]),
         _reader("read_bond_state", model.State, "BondState", at["state"]),
         _writer("write_bond_state", model.State, at["state"]),
+        _reflection(model.State),
         *_bond_constants(bonds, at["constants"]),
         _function("read_damping", "data, lane", f"return ({', '.join(_lane(at['damping'] + k) for k in range(4))})"),
     ]
     return "\n".join(lines)
+
+
+def _reflection(state: type | None) -> str:
+    """Return a function of two states: the one as far beyond the second as the first is before it."""
+    if state is None:
+        return "reflected = nothing"
+    pairs = zip(destruct(state, "before"), destruct(state, "after"), strict=True)
+    values = [f"2.0 * {after} - {before}" for before, after in pairs]
+    return _function("reflected", "before, after", f"return {construct(state, 'BondState', values)}")
 
 
 def _bond_constants(bonds: BondPlan, first: int) -> list[str]:
@@ -178,7 +192,9 @@ def _bond_constants(bonds: BondPlan, first: int) -> list[str]:
 
 def _contacts(plan: Blueprint) -> str:
     if plan.contacts is None:
-        names = "contact_load contact_energy read_contact_constants row_constants read_history write_history"
+        names = (
+            "contact_load contact_energy contact_losses read_contact_constants row_constants read_history write_history"
+        )
         names += " carry_history fresh_history load_history store_history"
         return "CHOICES = None\n" + " = ".join(names.split()) + " = nothing"
     law, history = plan.contacts.law, plan.history
@@ -190,6 +206,7 @@ def _contacts(plan: Blueprint) -> str:
         f"CHOICES = Choices{tuple(plan.contacts.choices)!r}",
         _bind("contact_load", law.load),
         _bind("contact_energy", law.energy),
+        _bind("contact_losses", law.losses if plan.ledger else None),
         _bind_record("ContactConstants", law.Constants),
         _bind_record("History", law.History),
         _function(

@@ -143,6 +143,7 @@ class World(NamedTuple):
 
     ``chunks`` (c + 1,) are the particle numbers where chunks begin, ``stale`` (c + 1,) tells of each chunk, and last
     of the walls, whether something is too far from where neighbours were searched; ``scratch`` has a row a chunk.
+    ``ledger`` (c + 1, terms) sums up energies in J of each chunk, and last of the walls; terms in ``kernels.layout``.
     """
 
     particles: Particles
@@ -156,3 +157,4 @@ class World(NamedTuple):
     chunks: Indices
     stale: Bytes
     scratch: Floats
+    ledger: Floats

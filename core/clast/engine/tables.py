@@ -26,7 +26,7 @@ from clast.engine.kernels.layout import (
     W,
     X,
 )
-from clast.engine.records import columns, width
+from clast.engine.records import columns
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import Bonds, Bytes, Cracks, Floats, Indices, Integers, Pairs, Particles, WallPairs
 
@@ -165,10 +165,9 @@ def failure_index(bonds: Bonds) -> Floats:
     return bond_slot(bonds, INDEX)
 
 
-def empty_pairs(chunks: Indices, history: type | None) -> Pairs:
+def empty_pairs(chunks: Indices, remembered: int) -> Pairs:
     """Return an empty list of pairs."""
     none, flags = np.zeros(0, np.uint32), np.zeros(0, np.uint8)
-    row = 3 + width(history) if history else 0
     return Pairs(
         none,
         none.copy(),
@@ -176,16 +175,15 @@ def empty_pairs(chunks: Indices, history: type | None) -> Pairs:
         np.zeros(0, np.int64),
         np.zeros(0),
         flags.copy(),
-        np.zeros((0, row)),
+        np.zeros((0, remembered)),
         np.zeros_like(chunks),
     )
 
 
-def empty_wall_pairs(history: type | None) -> WallPairs:
+def empty_wall_pairs(remembered: int) -> WallPairs:
     """Return an empty list of particles near walls."""
     none = np.zeros(0, np.uint32)
-    row = 3 + width(history) if history else 0
-    return WallPairs(none, none.copy(), np.zeros(0, np.uint8), np.zeros((0, row)))
+    return WallPairs(none, none.copy(), np.zeros(0, np.uint8), np.zeros((0, remembered)))
 
 
 def crack_table(chunks: Indices, ends: Integers) -> Cracks:

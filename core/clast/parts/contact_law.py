@@ -33,7 +33,9 @@ class Touch(NamedTuple):
         How far j has moved against i at the contact point since the forces before, or since they met if that was
         later, in m, for tangential springs. Summing it up is of second order with every integrator; ``velocity`` times
         the step is not, because velocities may belong to the end of that time. Given when the law has a History that
-        is stored.
+        is stored, and for the energy ledger.
+    turned : vector
+        How far j has turned against i since the forces before, in rad. Given for the energy ledger only.
     """
 
     overlap: float
@@ -47,6 +49,7 @@ class Touch(NamedTuple):
     inverse_mass: float
     inverse_inertia: float
     moved: Vec = ZERO
+    turned: Vec = ZERO
 
 
 class ContactLoad(NamedTuple):
@@ -55,6 +58,28 @@ class ContactLoad(NamedTuple):
     force: Vec
     torque_i: Vec
     torque_j: Vec
+
+
+class ContactLosses(NamedTuple):
+    """Energy in J that a contact has taken up for good since the forces before.
+
+    Attributes
+    ----------
+    viscous, sliding, rolling : float
+        Heat of dashpots, of sliding and of rolling friction.
+    stiffening : float
+        What elastic energy loses because a stiffness changes while its spring is tense; negative where it gains. 0 for
+        a law whose force is the gradient of its energy.
+    drag : vector
+        Viscous force on j in N, as it resists what the contact moves; handed back at the next evaluation, so that heat
+        is the mean of both times the way.
+    """
+
+    viscous: float
+    sliding: float
+    rolling: float
+    stiffening: float
+    drag: Vec
 
 
 class MaterialPair(NamedTuple):
@@ -99,6 +124,9 @@ class ContactLaw:
         Elastic energy in J.
     stiffness : (constants, radius, overlap) -> float
         Normal tangent stiffness in N/m, for the time step.
+    losses : (touch, constants, before, load, after, dt, choices, drag) -> ContactLosses, optional
+        What one step dissipates, for the energy ledger: from the history before and after, and the drag of the forces
+        before. Without it the ledger cannot close.
     History : NamedTuple type or None
         What a contact remembers while it lasts, all 0 at touch; vectors are tangential and the engine carries them
         with the contact plane. Stored only when sliding friction is present.
@@ -113,3 +141,4 @@ class ContactLaw:
     energy: Callable[..., float]
     stiffness: Callable[..., float]
     History: type | None = None
+    losses: Callable[..., ContactLosses] | None = None

@@ -42,6 +42,8 @@ class Frames:
         }
         if simulation.plan.orientation:
             row["orientation"] = particles.pose[:, Q : Q + 4].astype(np.float32)
+        if simulation.plan.ledger:
+            row["energy"] = np.array(simulation.ledger())
         loads = simulation.bond_loads()
         row["bond_intact"] = loads[:, 0].astype(np.uint8)
         row["bond_stress"] = (loads[:, 2] / (0.25 * np.pi * scene.diameter**2)).astype(np.float32)

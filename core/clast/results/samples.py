@@ -6,6 +6,7 @@ import numpy as np
 
 from clast.engine.kernels.layout import F, M, V, W, X
 from clast.engine.state import Floats
+from clast.results import energy
 from clast.results.store import Store
 from clast.simulation import Simulation
 
@@ -67,7 +68,8 @@ class Samples:
             }
         else:
             row |= {f"force_{w}_{c}_N": force[k, a] for k, w in enumerate(gauge.names) for a, c in enumerate("xyz")}
-        return row | {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
+        row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
+        return row | (energy.columns(simulation.ledger()) if simulation.plan.ledger else {})
 
     def _particle_row(self, simulation: Simulation) -> dict[str, Floats]:
         particles, k = simulation.world.particles, self.particles

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from clast.engine.mass_scaling import added_mass
 from clast.engine.sources import source_files
 from clast.engine.time_step import ruling
+from clast.results.energy import energy_results
 from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
 from clast.results.run import Run
@@ -74,7 +75,9 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "fragments": int(np.count_nonzero(sizes)),
         "largest_fragment_particles": int(sizes.max(initial=0)),
         "memory_MB": peak_memory(),
-    } | compression_results(simulation, curves)
+        **compression_results(simulation, curves),
+        **energy_results(simulation, curves),
+    }
 
 
 def mass_scaling_results(simulation: Simulation, run: Run) -> dict[str, Any]:

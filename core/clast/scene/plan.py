@@ -12,7 +12,7 @@ from clast.config.beside import WallChoice
 from clast.config.choice import Chosen
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
 from clast.engine.chunks import cut
-from clast.engine.kernels.layout import CONTACT_FREE, LANES
+from clast.engine.kernels.layout import BOND_SCRATCH, CONTACT_FREE, LANES, TERMS
 from clast.engine.records import fields, leaves, numbers, width
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Walls, World
 from clast.engine.tables import (
@@ -39,6 +39,7 @@ def blueprint(scene: Scene) -> Blueprint:
         motions=_distinct(wall.motion for wall in config.walls.values() if wall.motion is not None),
         body_forces=tuple(chosen.part for chosen in config.body_forces),
         applied_loads=len(_applied_loads(scene)) > 0,
+        ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
     )
 
@@ -137,8 +138,8 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
             _applied_loads(scene),
         ),
         bonds=bonds,
-        pairs=empty_pairs(chunks, plan.history),
-        wall_pairs=empty_wall_pairs(plan.history),
+        pairs=empty_pairs(chunks, plan.remembered),
+        wall_pairs=empty_wall_pairs(plan.remembered),
         walls=_walls(scene, plan),
         cracks=crack_table(chunks, scene.ends),
         numbers=_numbers(scene, plan, uniforms, dt, skin),
@@ -146,6 +147,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
         chunks=chunks,
         stale=np.zeros(len(chunks), np.uint8),
         scratch=np.zeros((len(chunks) - 1, _scratch_slots(plan) * LANES)),
+        ledger=np.zeros((len(chunks), TERMS)),
     )
 
 
@@ -164,8 +166,8 @@ def weights(scene: Scene) -> Floats:
 
 def _scratch_slots(plan: Blueprint) -> int:
     if plan.contacts is None:
-        return 32
-    return max(32, CONTACT_FREE + width(plan.contacts.law.Constants) + width(plan.history) + 1)
+        return BOND_SCRATCH
+    return max(BOND_SCRATCH, CONTACT_FREE + width(plan.contacts.law.Constants) + width(plan.history) + 1)
 
 
 def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, dt: float, skin: float) -> Numbers:

@@ -9,11 +9,15 @@ from pydantic import Field
 
 from clast import hookimpl
 from clast.maths.vec3 import ZERO, Vec, across, add, dot, norm, scale, sub
-from clast.parts.contact_law import ContactLaw, ContactLoad, Features, MaterialPair, Touch
+from clast.parts.contact_law import ContactLaw, ContactLoad, ContactLosses, Features, MaterialPair, Touch
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 
 ELASTIC, TOTAL, MUSEN = 0, 1, 2
+BRAKING_STEPS = 20.0
+"""Steps in which rolling friction may stop a rolling at the soonest: more than the twelve contacts that a particle
+among equal ones has, which all brake it at once."""
+
 LIMITS = {"elastic": ELASTIC, "total": TOTAL, "musen": MUSEN}
 
 
@@ -190,8 +194,9 @@ def rolling(touch: Touch, c: Constants, F_lim: float, dt: float, chosen: Choices
         return own_i, against(touch.spin_j, c.mu_r * F_lim * touch.radius_j)
     relative = across(sub(touch.spin_j, touch.spin_i), touch.normal)
     rate = norm(relative)
-    # no more than what stops the rolling within this step
-    drag = min(c.mu_r * F_lim * touch.radius / rate, 1.0 / (touch.inverse_inertia * dt)) if rate > 0.0 else 0.0
+    # never so much that all contacts of a particle together, or the lag of the spins they see, could turn it round
+    stopping = 1.0 / (BRAKING_STEPS * touch.inverse_inertia * dt)
+    drag = min(c.mu_r * F_lim * touch.radius / rate, stopping) if rate > 0.0 else 0.0
     torque = scale(drag, relative)
     return torque, scale(-1.0, torque)
 
@@ -223,6 +228,41 @@ def energy(touch: Touch, c: Constants, history: History, chosen: Choices) -> flo
     return stored
 
 
+def losses(
+    touch: Touch,
+    c: Constants,
+    before: History,
+    load: ContactLoad,
+    after: History,
+    dt: float,
+    chosen: Choices,
+    drag_before: Vec,
+) -> ContactLosses:
+    """Return what dashpots, slider, rolling and the changing tangential stiffness took up since the forces before.
+
+    The slider has slipped by what the contact moved and the spring did not, under the mean of the friction limit
+    then and now. The spring of stiffness k_t loses ½ Δk_t ξ² where k_t falls by Δk_t: Mindlin's law has no such force.
+    """
+    n = touch.normal
+    opened = dot(touch.moved, n)
+    drag, stretch = scale(elastic_force(touch, c) - dot(load.force, n), n), ZERO
+    sliding_heat = stiffening = 0.0
+    if chosen.sliding:
+        overlap_before = max(touch.overlap + opened, 0.0)
+        k_t, k_before = 8.0 * c.G * contact_radius(touch), 8.0 * c.G * sqrt(touch.radius * overlap_before)
+        stretch, F_t = sub(after.xi, before.xi), scale(-1.0, across(load.force, n))
+        slip = sub(across(touch.moved, n), stretch)
+        share = overlap_before / touch.overlap
+        sliding_heat = 0.5 * (1.0 + share * sqrt(share)) * dot(F_t, slip)
+        drag = add(drag, sub(F_t, scale(k_t, after.xi)))
+        stiffening = 0.25 * (k_before - k_t) * (dot(before.xi, before.xi) + dot(after.xi, after.xi))
+    viscous = 0.5 * dot(add(drag, drag_before), add(scale(opened, n), stretch))
+    rolling_heat = dot(load.torque_i, touch.turned)
+    if chosen.own_spin:
+        rolling_heat = -dt * (dot(load.torque_i, touch.spin_i) + dot(load.torque_j, touch.spin_j))
+    return ContactLosses(viscous, sliding_heat, rolling_heat, stiffening, drag)
+
+
 def stiffness(c: Constants, radius: float, overlap: float) -> float:
     """Return the normal tangent stiffness 2 E* √(R* δ) in N/m."""
     return 2.0 * c.E * sqrt(radius * overlap)
@@ -243,5 +283,6 @@ def clast_register(registry: Registry) -> None:
             energy=energy,
             stiffness=stiffness,
             History=History,
+            losses=losses,
         ),
     )

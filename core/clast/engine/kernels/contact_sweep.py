@@ -10,12 +10,13 @@ from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
 from clast.maths.vec3 import ZERO, add, cross, dot, scale, sub
 from clast.parts.contact_law import Touch
 
-from .lanes import put, vector
+from .lanes import put, row, vector
 from .layout import (
     CONTACT_F,
     CONTACT_FREE,
     CONTACT_MI,
     CONTACT_MJ,
+    DRAG,
     DRIFT,
     DV,
     FIRST,
@@ -25,6 +26,7 @@ from .layout import (
     INVERSE_INERTIA,
     INVERSE_MASS,
     LANES,
+    LOST,
     MATERIAL,
     NORMAL,
     RADIUS,
@@ -32,7 +34,9 @@ from .layout import (
     RI,
     RJ,
     SECOND,
+    TURNED,
     TURNING,
+    VISCOUS,
     WI,
     WJ,
     D,
@@ -47,19 +51,23 @@ from .slots import (
     CHOICES,
     CHUNKED,
     CONTACT_CONSTANTS,
+    CONTACT_LOSSES,
     HISTORY,
     ONE_MATERIAL,
+    REMEMBERS,
     RESTS,
+    ROLLS,
     SPIN,
     VELOCITY_FORCES,
     carry_history,
     contact_load,
+    contact_losses,
     read_contact_constants,
     read_history,
     row_constants,
     write_history,
 )
-from .touching import since_touch
+from .touching import share_since_touch
 
 HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
 
@@ -82,23 +90,30 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
         row = numbers.contact_table[int(body[i, MATERIAL]), int(body[j, MATERIAL])]
         for c in range(CONTACT_CONSTANTS):
             scratch[(CONTACT_FREE + c) * LANES + lane] = row[c]
-    if HISTORY > 0:
+    if REMEMBERS:
         pose, twist = particles.pose, particles.twist
         for c in range(3):
             scratch[(DRIFT + c) * LANES + lane] = twist[j, V + c] - twist[i, V + c]
             scratch[(TURNING + c) * LANES + lane] = (
                 pose[i, RADIUS] * twist[i, W + c] + pose[j, RADIUS] * twist[j, W + c]
             )
+    if HISTORY > 0:
         known = pairs.touching[k] != 0
         for c in range(3):
             scratch[(NORMAL + c) * LANES + lane] = pairs.history[k, c] if known else 0.0
         for c in range(HISTORY):
             scratch[(HISTORY_BASE + c) * LANES + lane] = pairs.history[k, 3 + c] if known else 0.0
+    if CONTACT_LOSSES:
+        known = pairs.touching[k] != 0
+        for c in range(3):
+            if ROLLS:
+                scratch[(TURNED + c) * LANES + lane] = particles.twist[j, W + c] - particles.twist[i, W + c]
+            scratch[(DRAG + c) * LANES + lane] = pairs.history[k, 3 + HISTORY + c] if known else 0.0
 
 
 @inlined
-def read_touch(scratch: Floats, lane: int, dt: float, at_contact_point: float) -> tuple[Touch, float, float]:
-    """Return the contact of a lane, and the lever arms of its force about both centres."""
+def read_touch(scratch: Floats, lane: int, dt: float, at_contact_point: float) -> tuple[Touch, float, float, float]:
+    """Return the contact of a lane, the lever arms of its force, and the share of the way that came after touch."""
     d = vector(scratch, D, lane)
     r_i, r_j = scratch[RI * LANES + lane], scratch[RJ * LANES + lane]
     distance = sqrt(dot(d, d))
@@ -117,25 +132,28 @@ def read_touch(scratch: Floats, lane: int, dt: float, at_contact_point: float) -
         w_i, w_j = vector(scratch, WI, lane), vector(scratch, WJ, lane)
         velocity = sub(velocity, cross(add(scale(lever_i, w_i), scale(lever_j, w_j)), n))
         per_inertia = scratch[II * LANES + lane]
-    moved = ZERO
-    if HISTORY > 0:
+    moved, share_moved = ZERO, 1.0
+    if REMEMBERS:
         rolled = cross(scale(lever, vector(scratch, TURNING, lane)), n)
-        moved = since_touch(scale(dt, sub(vector(scratch, DRIFT, lane), rolled)), n, overlap)
-    touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia, moved)
-    return touch, lever_i, lever_j
+        moved = scale(dt, sub(vector(scratch, DRIFT, lane), rolled))
+        share_moved = share_since_touch(moved, n, overlap)
+        moved = scale(share_moved, moved)
+    turned = scale(dt, vector(scratch, TURNED, lane)) if CONTACT_LOSSES and ROLLS else ZERO
+    touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia, moved, turned)
+    return touch, lever_i, lever_j, share_moved
 
 
 @inlined
 def contact_lane(scratch: Floats, lane: int, shared: Any, dt: float, at_contact_point: float) -> None:
     """Compute the contact of one lane: force on j, moments on both, new history."""
-    touch, lever_i, lever_j = read_touch(scratch, lane, dt, at_contact_point)
+    touch, lever_i, lever_j, share_moved = read_touch(scratch, lane, dt, at_contact_point)
     n = touch.normal
     constants = shared if ONE_MATERIAL else read_contact_constants(scratch, CONTACT_FREE, lane)
     history = read_history(scratch, HISTORY_BASE, lane)
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, n) + dot(touch.spin_j, n)) * dt
         history = carry_history(history, vector(scratch, NORMAL, lane), n, spin)
-    load, history = contact_load(touch, constants, history, dt, CHOICES)
+    load, kept = contact_load(touch, constants, history, dt, CHOICES)
     put(scratch, CONTACT_F, lane, load.force)
     if SPIN:
         arm = cross(n, load.force)
@@ -143,12 +161,19 @@ def contact_lane(scratch: Floats, lane: int, shared: Any, dt: float, at_contact_
         put(scratch, CONTACT_MJ, lane, sub(load.torque_j, scale(lever_j, arm)))
     if HISTORY > 0:
         put(scratch, NORMAL, lane, n)
-        write_history(scratch, HISTORY_BASE, lane, history)
+        write_history(scratch, HISTORY_BASE, lane, kept)
+    if CONTACT_LOSSES:
+        lost = contact_losses(touch, constants, history, load, kept, dt, CHOICES, vector(scratch, DRAG, lane))
+        scratch[LOST * LANES + lane] = lost.viscous / share_moved  # drag acts all the way that the step is long
+        scratch[(LOST + 1) * LANES + lane] = lost.sliding
+        scratch[(LOST + 2) * LANES + lane] = lost.rolling
+        scratch[(LOST + 3) * LANES + lane] = lost.stiffening
+        put(scratch, DRAG, lane, lost.drag)
 
 
 @inlined
-def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: int) -> None:
-    """Add a lane's loads to those of its particles that belong to the chunk, and keep its history."""
+def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: int, book: Floats) -> None:
+    """Add a lane's loads to those of its particles that belong to the chunk, keep its history, book its losses."""
     load, sides = particles.load, pairs.sides[k]
     i, j = pairs.first[k], pairs.second[k]
     for c in range(3):
@@ -166,6 +191,13 @@ def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: i
             pairs.history[k, c] = scratch[(NORMAL + c) * LANES + lane]
         for c in range(HISTORY):
             pairs.history[k, 3 + c] = scratch[(HISTORY_BASE + c) * LANES + lane]
+    if CONTACT_LOSSES:
+        for c in range(3):
+            pairs.history[k, 3 + HISTORY + c] = scratch[(DRAG + c) * LANES + lane]
+        if sides & FIRST:
+            for term in range(4):
+                book[term] += scratch[(LOST + term) * LANES + lane]
+    if REMEMBERS:
         pairs.touching[k] = 1
 
 
@@ -187,6 +219,13 @@ def meet(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: int)
 
 
 @inlined
+def parting_loss(particles: Particles, pairs: Pairs, k: int, dt: float) -> float:
+    """Return what the drag of the last evaluation still takes up while pair k comes apart."""
+    twist, last = particles.twist, row(pairs.history, k, 3 + HISTORY)
+    return 0.5 * dt * dot(last, sub(row(twist, pairs.second[k], V), row(twist, pairs.first[k], V)))
+
+
+@inlined
 def joined(pairs: Pairs, bonds: Bonds, k: int) -> bool:
     """Tell whether an intact bond stands in for the contact of pair k."""
     place = pairs.bond[k]
@@ -201,6 +240,7 @@ def apply(
     count: int,
     numbers: Numbers,
     scratch: Floats,
+    book: Floats,
     dt: float,
 ) -> None:
     """Gather, compute and scatter one block of touching pairs."""
@@ -211,7 +251,7 @@ def apply(
     for lane in range(LANES):  # always all: a loop of fixed length vectorises
         contact_lane(scratch, lane, shared, dt, numbers.lever)
     for lane in range(count):
-        scatter(particles, pairs, active[lane], scratch, lane)
+        scatter(particles, pairs, active[lane], scratch, lane, book)
 
 
 @routine
@@ -223,21 +263,24 @@ def sweep_contacts(
     numbers: Numbers,
     scratch: Floats,
     active: Indices,
+    book: Floats,
     dt: float,
 ) -> None:
-    """Add the loads of a chunk's touching pairs to its particles, in the order of the pairs."""
+    """Add the loads of a chunk's touching pairs to its particles, in the order of the pairs; book their losses."""
     count = 0
     for k in range(pairs.begin[chunk], pairs.begin[chunk + 1]):
         if not meet(particles, pairs, k, scratch, count):
-            if HISTORY > 0 and pairs.touching[k] != 0:
+            if REMEMBERS and pairs.touching[k] != 0:
                 pairs.touching[k] = 0
+                if CONTACT_LOSSES and pairs.sides[k] & FIRST:
+                    book[VISCOUS] += parting_loss(particles, pairs, k, dt)
             continue
         if not BONDED_PAIRS_TOUCH and joined(pairs, bonds, k):
             continue
         active[count] = k
         count += 1
         if count == LANES:
-            apply(particles, pairs, active, count, numbers, scratch, dt)
+            apply(particles, pairs, active, count, numbers, scratch, book, dt)
             count = 0
     if count > 0:
-        apply(particles, pairs, active, count, numbers, scratch, dt)
+        apply(particles, pairs, active, count, numbers, scratch, book, dt)

@@ -1,4 +1,4 @@
-"""Vectors in the lanes of scratch tables."""
+"""Vectors in the lanes of scratch tables, and in the rows of others."""
 
 from __future__ import annotations
 
@@ -6,6 +6,12 @@ from clast.engine.compiler import inlined
 from clast.engine.state import Floats
 
 from .layout import LANES
+
+
+@inlined
+def row(table: Floats, k: int, column: int) -> tuple[float, float, float]:
+    """Read three neighbouring columns of a table."""
+    return (table[k, column], table[k, column + 1], table[k, column + 2])
 
 
 @inlined

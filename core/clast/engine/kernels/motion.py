@@ -5,13 +5,31 @@ from __future__ import annotations
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles, Walls
 from clast.maths.rotation import turn
+from clast.maths.vec3 import Vec, add, dot, scale
 from clast.parts.integrator import Stage
 
-from .lanes import put, vector
-from .layout import INVERSE_INERTIA, INVERSE_MASS, LANES, TURN_Q, TURN_W, WEIGHT, F, M, Q, V, W, X
+from .lanes import put, row, vector
+from .layout import (
+    APPLIED_WORK,
+    BODY_WORK,
+    DRIVEN_WORK,
+    INVERSE_INERTIA,
+    INVERSE_MASS,
+    LANES,
+    TURN_Q,
+    TURN_W,
+    WEIGHT,
+    F,
+    M,
+    Q,
+    V,
+    W,
+    X,
+)
 from .slots import (
     APPLIED_LOADS,
     BODY_FORCES,
+    LEDGER,
     ORIENTATION,
     SPIN,
     VELOCITY_FORCES,
@@ -110,6 +128,35 @@ def move_before_forces(
 
 
 @inlined
+def body_force(particles: Particles, k: int, numbers: Numbers, time: float) -> Vec:
+    """Return the acceleration of particle k by body forces."""
+    acceleration: Vec = body_acceleration(numbers.body, row(particles.pose, k, X), row(particles.seen, k, V), time)
+    return acceleration
+
+
+@inlined
+def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: float, book: Floats, span: float) -> None:
+    """Book the work on particle k, since the forces before, of body forces, applied loads, and what drives it.
+
+    Velocities are those at the force evaluation, half a step of acceleration after the kick before it: with them the
+    work of all forces together is the change of the kinetic energy, to the rounding.
+    """
+    half = 0.5 * numbers.dt
+    v = add(row(particles.twist, k, V), scale(half, row(particles.acceleration, k, F)))
+    w = add(row(particles.twist, k, W), scale(half, row(particles.acceleration, k, M)))
+    if APPLIED_LOADS:
+        power = dot(row(particles.applied, k, F), v) + dot(row(particles.applied, k, M), w)
+        book[APPLIED_WORK] += span * power
+    per_mass = particles.body[k, INVERSE_MASS]
+    if per_mass == 0.0:
+        power = dot(row(particles.load, k, F), v) + dot(row(particles.load, k, M), w)
+        book[DRIVEN_WORK] -= span * power
+    elif BODY_FORCES:
+        weight = particles.body[k, WEIGHT] / per_mass
+        book[BODY_WORK] += span * weight * dot(body_force(particles, k, numbers, time), v)
+
+
+@inlined
 def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> None:
     """Turn loads and body forces on particle k into accelerations."""
     load, acceleration = particles.load, particles.acceleration
@@ -119,24 +166,29 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
         if SPIN:
             acceleration[k, M + c] = per_inertia * load[k, M + c]
     if BODY_FORCES and per_mass > 0.0:
-        g = body_acceleration(
-            numbers.body,
-            (particles.pose[k, X], particles.pose[k, X + 1], particles.pose[k, X + 2]),
-            (particles.seen[k, V], particles.seen[k, V + 1], particles.seen[k, V + 2]),
-            time,
-        )
+        g = body_force(particles, k, numbers, time)
         for c in range(3):
             acceleration[k, F + c] += particles.body[k, WEIGHT] * g[c]
 
 
 @inlined
 def move_after_forces(
-    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats, time: float
+    particles: Particles,
+    begin: int,
+    end: int,
+    stage: Stage,
+    numbers: Numbers,
+    scratch: Floats,
+    time: float,
+    book: Floats,
+    span: float,
 ) -> None:
-    """Compute accelerations, kick, and drift to the end of the stage."""
+    """Compute accelerations, kick, and drift to the end of the stage; book the work of what acts from outside."""
     dt = numbers.dt
     for k in range(begin, end):
         accelerate(particles, k, numbers, time)
+        if LEDGER:
+            book_outside_work(particles, k, numbers, time, book, span)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)
         if stage.drift_after != 0.0:

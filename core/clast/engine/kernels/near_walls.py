@@ -6,9 +6,9 @@ from clast.engine.compiler import compiled
 from clast.engine.state import Bytes, Floats, Particles, Walls
 from clast.maths.vec3 import sub
 
+from .lanes import row
 from .layout import INVERSE_MASS, RADIUS
 from .slots import WALLS, wall_nearest
-from .wall_sweep import row
 
 
 @compiled

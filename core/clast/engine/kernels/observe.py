@@ -8,7 +8,7 @@ from clast.engine.compiler import compiled
 from clast.engine.state import Floats, World
 from clast.maths.vec3 import norm
 
-from .bond_sweep import gather, read_motion
+from .bond_lane import gather, read_motion
 from .layout import FIRST, INTACT, LANES
 from .slots import (
     BONDS,

@@ -26,6 +26,10 @@ RESTS = False
 WALLS = False
 BODY_FORCES = False
 APPLIED_LOADS = False
+LEDGER = False
+REMEMBERS = False
+ROLLS = False
+CONTACT_LOSSES = False
 ORIENTATION = False
 SPIN = False
 VELOCITY_FORCES = False
@@ -40,9 +44,9 @@ def nothing(*args: Any) -> Any:
 
 
 bond_measure = bond_end_loads = bond_load = bond_flow = bond_failure = bond_mode = bond_energy = nothing
-bond_overload = bond_on_event = nothing
+bond_overload = bond_on_event = reflected = nothing
 read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
-contact_load = contact_energy = read_contact_constants = row_constants = nothing
+contact_load = contact_energy = contact_losses = read_contact_constants = row_constants = nothing
 read_history = write_history = carry_history = fresh_history = load_history = store_history = nothing
 wall_nearest = wall_velocity = body_acceleration = nothing

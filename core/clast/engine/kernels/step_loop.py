@@ -83,17 +83,20 @@ def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: floa
     particles, numbers = world.particles, world.numbers
     for c in range(begin, end):
         if BONDS:
-            sweep_bonds(world.bonds, c, particles, world.cracks, numbers, world.scratch[c], span, step)
+            sweep_bonds(world.bonds, c, particles, world.cracks, numbers, world.scratch[c], world.ledger[c], span, step)
         if CONTACTS:
-            sweep_contacts(world.pairs, c, world.bonds, particles, numbers, world.scratch[c], active, span)
+            sweep_contacts(
+                world.pairs, c, world.bonds, particles, numbers, world.scratch[c], active, world.ledger[c], span
+            )
 
 
 @inlined
-def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float) -> None:
+def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float, span: float) -> None:
     """Move the chunks from ``begin`` to ``end``, and the walls, to the end of the stage."""
     numbers, chunks = world.numbers, world.chunks
     for c in range(begin, end):
-        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, world.scratch[c], time)
+        scratch, book = world.scratch[c], world.ledger[c]
+        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book, span)
     if WALLS and first:
         move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.wall_reach2)
 
@@ -125,10 +128,10 @@ def advance(world: World, steps: int, team: Team) -> int:
             if CHUNKED:
                 wait(team)
             if first:
-                sweep_walls(world.walls, world.wall_pairs, world.particles, numbers, span)
+                sweep_walls(world.walls, world.wall_pairs, world.particles, numbers, world.ledger[-1], span)
         if CHUNKED:
             wait(team)
-        move_from_forces(world, begin, end, first, stage, time)
+        move_from_forces(world, begin, end, first, stage, time, span)
         if count_stage(clock) and WALLS and first:
             sum_wall_forces(world.walls)
     return DONE

@@ -7,7 +7,13 @@ from clast.maths.vec3 import Vec, dot, scale
 
 
 @inlined
+def share_since_touch(moved: Vec, n: Vec, overlap: float) -> float:
+    """Return the share of a displacement that came after touch: all of it, unless it closed more than the overlap."""
+    closed = -dot(moved, n)
+    return overlap / closed if closed > overlap else 1.0
+
+
+@inlined
 def since_touch(moved: Vec, n: Vec, overlap: float) -> Vec:
     """Return the part of a displacement that came after touch: all of it, unless it closed more than the overlap."""
-    closed = -dot(moved, n)
-    return scale(overlap / closed, moved) if closed > overlap else moved
+    return scale(share_since_touch(moved, n, overlap), moved)

@@ -7,47 +7,62 @@ from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
 from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
 from clast.parts.contact_law import Touch
 
-from .layout import INVERSE_INERTIA, INVERSE_MASS, MATERIAL, RADIUS, F, M, V, W, X
+from .lanes import row
+from .layout import (
+    INVERSE_INERTIA,
+    INVERSE_MASS,
+    MATERIAL,
+    RADIUS,
+    ROLLING,
+    SLIDING,
+    STIFFENING,
+    VISCOUS,
+    WALL_WORK,
+    F,
+    M,
+    V,
+    W,
+    X,
+)
 from .slots import (
     CHOICES,
+    CONTACT_LOSSES,
     HISTORY,
+    LEDGER,
+    REMEMBERS,
     SPIN,
     VELOCITY_FORCES,
     carry_history,
     contact_load,
+    contact_losses,
     fresh_history,
     load_history,
     row_constants,
     store_history,
     wall_nearest,
 )
-from .touching import since_touch
-
-
-@inlined
-def row(table: Floats, k: int, column: int) -> Vec:
-    """Read three neighbouring columns of a table."""
-    return (table[k, column], table[k, column + 1], table[k, column + 2])
+from .touching import share_since_touch
 
 
 @inlined
 def wall_touch(
     particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec, dt: float
-) -> Touch:
-    """Return the contact of particle k (i) with a wall (j)."""
+) -> tuple[Touch, float]:
+    """Return the contact of particle k (i) with a wall (j), and the share of the way since touch."""
     seen, body = particles.seen, particles.body
     radius = particles.pose[k, RADIUS]
-    velocity, spin, moved = ZERO, ZERO, ZERO
-    if HISTORY > 0:
+    velocity, spin, moved, share_moved = ZERO, ZERO, ZERO, 1.0
+    if REMEMBERS:
         drift = sub(wall_velocity, row(particles.twist, k, V))
         slip = sub(drift, cross(scale(lever, row(particles.twist, k, W)), n))
-        moved = since_touch(scale(dt, slip), n, radius - distance)
+        share_moved = share_since_touch(scale(dt, slip), n, radius - distance)
+        moved = scale(share_moved * dt, slip)
     if VELOCITY_FORCES:
         velocity = sub(wall_velocity, row(seen, k, V))
     if SPIN:
         spin = row(seen, k, W)
         velocity = sub(velocity, cross(scale(lever, spin), n))
-    return Touch(
+    touch = Touch(
         overlap=radius - distance,
         normal=n,
         velocity=velocity,
@@ -59,7 +74,9 @@ def wall_touch(
         inverse_mass=body[k, INVERSE_MASS],
         inverse_inertia=body[k, INVERSE_INERTIA],
         moved=moved,
+        turned=scale(-dt, row(particles.twist, k, W)) if CONTACT_LOSSES else ZERO,
     )
+    return touch, share_moved
 
 
 @inlined
@@ -78,28 +95,45 @@ def push(particles: Particles, walls: Walls, k: int, w: int, force: Vec, torque:
 
 
 @routine
-def sweep_walls(walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, dt: float) -> None:
-    """Add the loads of all wall contacts to particles and walls, in the order of the pairs."""
+def sweep_walls(
+    walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, book: Floats, dt: float
+) -> None:
+    """Add the loads of all wall contacts to particles and walls, in the order of the pairs; book losses and work."""
     for p in range(len(pairs.wall)):
         w, k = pairs.wall[p], pairs.particle[p]
         x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
         near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
         radius = particles.pose[k, RADIUS]
         if near.distance >= radius:
+            if CONTACT_LOSSES and pairs.touching[p] != 0:
+                apart = sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
+                book[VISCOUS] += 0.5 * dt * dot(row(pairs.history, p, 3 + HISTORY), apart)
             pairs.touching[p] = 0
             continue
         n = near.normal
         lever = radius - numbers.lever * (radius - near.distance)
-        touch = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), dt)
+        touch, share_moved = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), dt)
         history = fresh_history()
         if HISTORY > 0 and pairs.touching[p] != 0:
             spin = 0.5 * dot(touch.spin_i, n) * dt
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
         constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
-        load, history = contact_load(touch, constants, history, dt, CHOICES)
+        load, kept = contact_load(touch, constants, history, dt, CHOICES)
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if HISTORY > 0:
             for c in range(3):
                 pairs.history[p, c] = n[c]
-            store_history(pairs.history[p], history)
+            store_history(pairs.history[p], kept)
+        if CONTACT_LOSSES:
+            drag = row(pairs.history, p, 3 + HISTORY) if pairs.touching[p] != 0 else ZERO
+            lost = contact_losses(touch, constants, history, load, kept, dt, CHOICES, drag)
+            book[VISCOUS] += lost.viscous / share_moved  # drag acts all the way that the step is long
+            book[SLIDING] += lost.sliding
+            book[ROLLING] += lost.rolling
+            book[STIFFENING] += lost.stiffening
+            for c in range(3):
+                pairs.history[p, 3 + HISTORY + c] = lost.drag[c]
         pairs.touching[p] = 1
+    if LEDGER:
+        for w in range(len(walls.shape_kind)):
+            book[WALL_WORK] -= dt * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))

@@ -1,0 +1,161 @@
+"""One bond in its lane: gather the motion of the ends, apply kinematics and law, scatter the loads."""
+
+from __future__ import annotations
+
+from clast.engine.compiler import inlined
+from clast.engine.state import Floats, Particles
+from clast.maths.rotation import IDENTITY
+from clast.maths.vec3 import ZERO, across, add, along, cross, dot, norm, scale, sub
+from clast.parts.bond_kinematics import BondMotion, EndLoads
+
+from .lanes import put, vector
+from .layout import (
+    BOND_D,
+    BOND_F,
+    BOND_MI,
+    BOND_MJ,
+    BOND_QI,
+    BOND_QJ,
+    BOND_V,
+    BOND_WI,
+    BOND_WJ,
+    DAMPED,
+    FIRST,
+    FLOWED,
+    INDEX,
+    LANES,
+    OVERLOAD,
+    SECOND,
+    F,
+    M,
+    Q,
+    V,
+    W,
+    X,
+)
+from .slots import (
+    BOND_DAMPING,
+    BOND_EVENTS,
+    BOND_FLOW,
+    BOND_ORIENTATION,
+    BOND_VELOCITY,
+    CHUNKED,
+    FADE,
+    LEDGER,
+    bond_end_loads,
+    bond_energy,
+    bond_failure,
+    bond_flow,
+    bond_load,
+    bond_measure,
+    bond_overload,
+    read_bond_state,
+    read_constants,
+    read_damping,
+    read_kinematic_state,
+    read_reference,
+    reflected,
+    write_bond_state,
+    write_kinematic_state,
+)
+
+
+@inlined
+def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> None:
+    """Copy what the kinematics needs of the ends into the scratch table."""
+    pose, seen = particles.pose, particles.seen
+    for c in range(3):
+        scratch[(BOND_D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
+    if BOND_ORIENTATION:
+        for c in range(4):
+            scratch[(BOND_QI + c) * LANES + lane] = pose[i, Q + c]
+            scratch[(BOND_QJ + c) * LANES + lane] = pose[j, Q + c]
+    if BOND_VELOCITY:
+        for c in range(3):
+            scratch[(BOND_V + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
+            scratch[(BOND_WI + c) * LANES + lane] = seen[i, W + c]
+            scratch[(BOND_WJ + c) * LANES + lane] = seen[j, W + c]
+
+
+@inlined
+def read_motion(scratch: Floats, lane: int) -> BondMotion:
+    """Return the motion of the ends of a lane's bond."""
+    q_i, q_j = IDENTITY, IDENTITY
+    v, w_i, w_j = ZERO, ZERO, ZERO
+    if BOND_ORIENTATION:
+        a, b = vector(scratch, BOND_QI + 1, lane), vector(scratch, BOND_QJ + 1, lane)
+        q_i = (scratch[BOND_QI * LANES + lane], a[0], a[1], a[2])
+        q_j = (scratch[BOND_QJ * LANES + lane], b[0], b[1], b[2])
+    if BOND_VELOCITY:
+        v = vector(scratch, BOND_V, lane)
+        w_i = vector(scratch, BOND_WI, lane)
+        w_j = vector(scratch, BOND_WJ, lane)
+    return BondMotion(vector(scratch, BOND_D, lane), q_i, q_j, v, w_i, w_j)
+
+
+@inlined
+def damped(ends: EndLoads, motion: BondMotion, data: Floats, lane: int) -> tuple[EndLoads, float]:
+    """Add the dashpots of stretching, shearing, twisting and bending; return their power too, 0 for rigid motion."""
+    c_n, c_t, c_tor, c_b = read_damping(data, lane)
+    n = scale(1.0 / norm(motion.d), motion.d)
+    slip = sub(motion.v, cross(scale(0.5, add(motion.w_i, motion.w_j)), motion.d))
+    turn_rate = sub(motion.w_j, motion.w_i)
+    pull = add(scale(c_n, along(slip, n)), scale(c_t, across(slip, n)))
+    moment = add(scale(c_tor, along(turn_rate, n)), scale(c_b, across(turn_rate, n)))
+    lever = scale(0.5, cross(motion.d, pull))
+    with_dashpots = EndLoads(
+        sub(ends.force, pull),
+        add(ends.moment_i, add(lever, moment)),
+        add(ends.moment_j, sub(lever, moment)),
+    )
+    return with_dashpots, dot(pull, slip) + dot(moment, turn_rate)
+
+
+@inlined
+def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, ...], dt: float) -> None:
+    """Compute the bond of one lane: loads on its ends, new state, failure index, overload."""
+    motion = read_motion(scratch, lane)
+    strain, frame, kinematic_state = bond_measure(
+        motion, read_reference(data, lane), read_kinematic_state(data, lane), dt
+    )
+    constants = read_constants(uniforms, data, lane)
+    before = read_bond_state(data, lane)
+    state = bond_flow(strain, constants, before)
+    load = bond_load(strain, constants, state)
+    ends = bond_end_loads(load, frame)
+    if BOND_DAMPING:
+        ends, power = damped(ends, motion, data, lane)
+        if LEDGER:
+            scratch[DAMPED * LANES + lane] = dt * power
+    if BOND_FLOW and LEDGER:
+        # the flow is half over when the strain is half-way: as much before the new state as beyond it
+        beyond = reflected(before, state)
+        lost = bond_energy(strain, constants, before) - bond_energy(strain, constants, beyond)
+        scratch[FLOWED * LANES + lane] = 0.5 * lost
+    write_kinematic_state(data, lane, kinematic_state)
+    if BOND_FLOW:
+        write_bond_state(data, lane, state)
+    data[INDEX * LANES + lane] = bond_failure(strain, load, constants, state)
+    if BOND_EVENTS:
+        scratch[OVERLOAD * LANES + lane] = bond_overload(strain, constants, state)
+    put(scratch, BOND_F, lane, ends.force)
+    put(scratch, BOND_MI, lane, ends.moment_i)
+    put(scratch, BOND_MJ, lane, ends.moment_j)
+
+
+@inlined
+def scatter(particles: Particles, i: int, j: int, sides: int, scratch: Floats, lane: int, share: float) -> None:
+    """Add a lane's loads to those of its ends that belong to the chunk."""
+    load = particles.load
+    for c in range(3):
+        force = scratch[(BOND_F + c) * LANES + lane]
+        moment_i = scratch[(BOND_MI + c) * LANES + lane]
+        moment_j = scratch[(BOND_MJ + c) * LANES + lane]
+        if FADE:
+            force, moment_i, moment_j = share * force, share * moment_i, share * moment_j
+        if not CHUNKED or sides & FIRST:
+            load[i, F + c] -= force
+            load[i, M + c] += moment_i
+        if not CHUNKED or sides & SECOND:
+            load[j, F + c] += force
+            load[j, M + c] += moment_j
