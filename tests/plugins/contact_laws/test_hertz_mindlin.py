@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from clast.maths.vec3 import add, cross, dot, norm, scale, sub
 from clast.parts.contact_law import ContactLoad, Features
 from clast_plugins.contact_laws.hertz_mindlin import History, energy, stiffness
+from clast_plugins.contact_laws.hertz_mindlin import BRAKING_STEPS
 from tests.support.contacts import (
     DT,
     GLASS,
@@ -106,7 +107,7 @@ def test_a_rotated_world_gives_rotated_loads(limit, rolling, drawn, q):
     # forces may be small differences of large ones
     assert_turned(there.force, told.force, q, norm(told.force) + hertz(touch), 1e-8)
     assert_turned(turned_xi, kept, q, norm(kept) + DT, 1e-8)
-    stopping = (norm(touch.spin_i) + norm(touch.spin_j)) / (touch.inverse_inertia * DT)
+    stopping = (norm(touch.spin_i) + norm(touch.spin_j)) / (BRAKING_STEPS * touch.inverse_inertia * DT)
     for a, b in ((there.torque_i, told.torque_i), (there.torque_j, told.torque_j)):
         assert_turned(a, b, q, norm(b) + stopping)
 
@@ -211,7 +212,7 @@ def test_rolling_friction_is_equal_and_opposite_slows_the_rolling_and_never_reve
 def test_the_rolling_torque_is_the_friction_unless_the_rolling_ends_first(touch, mu):
     told, _ = contact(GLASS._replace(rolling_friction=mu)).load(touch)
     rolling = across(sub(touch.spin_j, touch.spin_i), touch.normal)
-    stopping = norm(rolling) / (touch.inverse_inertia * DT)
+    stopping = norm(rolling) / (BRAKING_STEPS * touch.inverse_inertia * DT)
     expected = min(mu * hertz(touch) * touch.radius, stopping)
     assert norm(told.torque_i) == pytest.approx(expected, rel=1e-12, abs=1e-300)
 
