@@ -24,13 +24,14 @@ class Registry:
         self.files[name] = part.file
 
 
-def test_four_writers_are_registered() -> None:
+def test_five_writers_are_registered() -> None:
     registry: Any = Registry()
     clast_viz.clast_register(registry)
     assert registry.files == {
         "recording": "recording.rrd",
         "vtk": "particles.vtkhdf",
         "figure": "stress_strain.png",
+        "energy": "energy.png",
         "picture": "picture.png",
     }
 
