@@ -11,7 +11,8 @@ import pytest
 
 from clast import Simulation, load, open_run, run_scene
 from clast.engine import chunks
-from clast.results.energy import incomplete, on_curves, sentence
+from clast.results.curves import energies
+from clast.results.energy import incomplete, sentence
 from tests.scenes import COLLISION, CRUSH, write
 
 LEDGER = "output.ledger=true"
@@ -134,7 +135,7 @@ def test_a_run_tells_its_energies_and_how_well_they_close(tmp_path: Path) -> Non
     assert told["quasi_static"] == (ratio < 0.05 and inertial < 1e-3)
     assert "closes" in sentence(told)
     with open_run(tmp_path / "run") as run:
-        energy = on_curves(run.curves)
+        energy = energies(run.curves)
     assert set(told["at_the_end_J"]) | {"error"} == set(energy)
     pushed = np.trapezoid(run.curves["force_upper_N"], run.curves["displacement_m"])
     assert energy["walls"][-1] == pytest.approx(pushed, rel=0.05)

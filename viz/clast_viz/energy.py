@@ -11,7 +11,7 @@ from pydantic import Field
 
 from clast.parts.params import Params
 from clast.parts.writer import Written
-from clast.results.energy import on_curves
+from clast.results.curves import energies
 from clast.results.run import Run
 from clast_viz.curves import has_compression
 from clast_viz.figure import STYLE, save
@@ -52,7 +52,7 @@ class EnergyParams(Params):
 
 def write_energy(run: Run, params: EnergyParams, path: Path) -> Written:
     """Write ``energy.png``: the terms of the ledger stacked, the work done on the scene as a line over them."""
-    energy = on_curves(run.curves)
+    energy = energies(run.curves)
     if not energy:
         return Written(None, "the energies were not booked; set output.ledger: true")
     if len(run.curves["time_s"]) < 2:

@@ -10,6 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 FILE = "curves.csv"
+ENERGY = "energy_{}_J"
+"""Name of the column of a term of the energy ledger."""
+
 COUNTS = ("bonds_intact", "bonds_broken")
 
 
@@ -21,6 +24,20 @@ def write(path: Path, curves: dict[str, NDArray[np.float64]]) -> Path:
         writer.writerow(curves)
         writer.writerows(zip(*columns, strict=True))
     return path
+
+
+def energies(curves: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Return the terms of the energy ledger among the columns, by name, in J; none where it was off.
+
+    >>> energies({"time_s": np.zeros(1), "energy_kinetic_J": np.ones(1)})
+    {'kinetic': array([1.])}
+    """
+    before, after = ENERGY.split("{}")
+    return {
+        name.removeprefix(before).removesuffix(after): values
+        for name, values in curves.items()
+        if name.startswith(before)
+    }
 
 
 def _text(name: str, value: Any) -> str:

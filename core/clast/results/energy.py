@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.ledger import Ledger
+from clast.results.curves import ENERGY, energies
 from clast.simulation import Simulation
-
-PREFIX, SUFFIX = "energy_", "_J"
 
 MOST_KINETIC = 0.05
 """Kinetic energy as a share of the elastic energy up to which explicit simulations count as quasi-static; the handbooks
@@ -26,16 +25,7 @@ Curves = dict[str, NDArray[np.float64]]
 
 def columns(ledger: Ledger) -> dict[str, float]:
     """Return the columns of a ledger on the curves, in J, the error last."""
-    return {f"{PREFIX}{name}{SUFFIX}": value for name, value in (ledger._asdict() | {"error": ledger.error}).items()}
-
-
-def on_curves(curves: Curves) -> dict[str, NDArray[np.float64]]:
-    """Return the energies among the columns of the curves, by name, in J."""
-    return {
-        name.removeprefix(PREFIX).removesuffix(SUFFIX): values
-        for name, values in curves.items()
-        if name.startswith(PREFIX)
-    }
+    return {ENERGY.format(name): value for name, value in (ledger._asdict() | {"error": ledger.error}).items()}
 
 
 def energy_results(simulation: Simulation, curves: Curves) -> dict[str, Any]:
@@ -72,7 +62,7 @@ def quasi_static(simulation: Simulation, curves: Curves) -> dict[str, Any]:
     if stress is None or len(stress) < 3:
         return {}
     k = max(int(np.argmax(stress)), 2)
-    energy = on_curves(curves)
+    energy = energies(curves)
     elastic = (energy["contact_elastic"] + energy["bond_elastic"])[1 : k + 1]
     known = elastic > 0.0
     ratio = float(np.median(energy["kinetic"][1 : k + 1][known] / elastic[known])) if known.any() else None
