@@ -135,6 +135,7 @@ class _Session:
     def __init__(self, simulation: Simulation, folder: Path, resume: bool, listener: Listener) -> None:
         self.simulation, self.folder, self.listener = simulation, folder, listener
         self.parts = summary.parts(simulation)
+        simulation.note_start()
         notes = checkpoint.load(folder, simulation) if resume else {}
         self.store = Store(folder, resume)
         self.samples = Samples(simulation, self.store)
@@ -151,7 +152,7 @@ class _Session:
         simulation, listener = self.simulation, self.listener
         first = simulation.step
         output = simulation.config.output
-        watch = Watch(listener.progress, self.save, output.checkpoint)
+        watch = Watch(listener.progress, self._save_what_is_sound, output.checkpoint)
         with watch:
             try:
                 simulation.advance_to(first)  # compiles
@@ -164,7 +165,7 @@ class _Session:
                 elapsed = time.perf_counter() - begun
                 self.save()
             except RunInterruptedError:
-                self.save()
+                self._save_what_is_sound()
                 raise
             finally:
                 with suppress(RunError, OSError, RuntimeError):
@@ -176,6 +177,11 @@ class _Session:
         self.samples.observe(self.simulation)
         if self.frames.every:
             self.frames.observe(self.simulation)
+
+    def _save_what_is_sound(self) -> None:
+        """Keep the last good checkpoint where the numbers cannot be trusted: the next sample will stop the run."""
+        if self.simulation.complaint() is None:
+            self.save()
 
     def save(self) -> None:
         """Write results and checkpoint to disk, in this order, so that the checkpoint never knows more."""

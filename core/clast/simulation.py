@@ -19,7 +19,6 @@ from clast.engine.kernels.layout import (
     STALE,
     START,
     STEP,
-    V,
     X,
 )
 from clast.engine.ledger import Ledger, read_ledger
@@ -35,8 +34,9 @@ from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, build_world, relieve
 from clast.scene.scene import Scene, build_scene
 from clast.scene.start import check_start
+from clast.soundness.watch import Soundness
 
-BOND_COLUMNS = 8
+BOND_COLUMNS, BOND_ENERGY = 8, 7
 
 
 class Observer(Protocol):
@@ -76,6 +76,8 @@ class Simulation:
         Particles that have left the domain.
     rebuilds : int
         How often neighbour lists were made.
+    soundness : Soundness
+        Finds what the time step cannot follow.
     """
 
     def __init__(self, config: SceneConfig, threads: int | None = None) -> None:
@@ -91,6 +93,7 @@ class Simulation:
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
+        self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
         self.crew = Crew(threads, self.world)
         self.removed = 0
@@ -100,6 +103,9 @@ class Simulation:
             relieve(self.scene, self.world.pairs)
         if self.plan.ledger:
             self.world.ledger[-1, START] = self.ledger().stored
+        too_coarse = self.soundness.complaint(self.world, self.dt)
+        if too_coarse is not None:
+            raise config.problem(("time", "step"), f"{self.dt:.4g} s: {too_coarse}; take a smaller step")
 
     @property
     def step(self) -> int:
@@ -148,7 +154,7 @@ class Simulation:
         Raises
         ------
         RunError
-            If positions stop being numbers or a particle outruns its neighbours, or a fixed step becomes too large.
+            If the time step cannot follow what happens, see :mod:`clast.soundness`, or a fixed step becomes too large.
         """
         while True:
             look = self.keeper.next_look(self.step)
@@ -161,9 +167,10 @@ class Simulation:
     def _advance_to(self, step: int) -> None:
         """Advance to a step, making neighbour lists anew whenever they go stale."""
         while self._advance(step) == STALE:
-            self._refuse_blow_up()
+            self._stop_for(self.soundness.motion_complaint(self.world, self.dt))
             self._remove_leavers()
             self.renew_lists()
+            self._stop_for(self.soundness.complaint(self.world, self.dt))
 
     def change_step(self, dt: float) -> None:
         """Take steps of another size in s from now on.
@@ -225,19 +232,35 @@ class Simulation:
         self.kernel.energies(self.world, bool(self.world.clock[PRIMED]), elastic)
         return read_ledger(self.world, *(float(each) for each in elastic))
 
-    def _refuse_blow_up(self) -> None:
-        particles = self.world.particles
-        here = particles.present != 0
-        x, v = particles.pose[here, X : X + 3], particles.twist[here, V : V + 3]
-        reach = float(self.scene.radius.min())
-        lost = ~np.isfinite(x).all(axis=1) | ~(np.abs(v).max(axis=1) * self.dt < reach)
-        if lost.any():
-            k = int(np.nonzero(here)[0][np.argmax(lost)])
+    def note_start(self) -> None:
+        """Note the energy at the start, to which :attr:`soundness` compares that of closed scenes."""
+        self.soundness.energy.begin(self.world, self._bond_energies(), self.dt)
+
+    def complaint(self) -> str | None:
+        """Return what the time step cannot follow now, or that energy came from nowhere; None if all is well."""
+        found = self.soundness.complaint(self.world, self.dt)
+        return found or self.soundness.energy.complaint(self.world, self._bond_energies())
+
+    def refuse_nonsense(self) -> None:
+        """Look whether the numbers can be trusted.
+
+        Raises
+        ------
+        RunError
+            If they cannot.
+        """
+        self._stop_for(self.complaint())
+
+    def _bond_energies(self) -> Floats:
+        needed = self.soundness.energy.closed and len(self.scene.ends) > 0
+        return self.bond_loads()[:, BOND_ENERGY] if needed else np.zeros(0)
+
+    def _stop_for(self, complaint: str | None) -> None:
+        if complaint is not None:
             raise RunError(
-                f"the run blew up at step {self.step} (t = {self.time:.4g} s): particle {k} "
-                f"{'is nowhere' if not np.isfinite(x).all() else 'moves farther than its radius in one step'}. "
-                f"The step is {self.dt:.4g} s, the limit {self.limits.stable:.4g} s: take a smaller "
-                "time.step, or look for overlapping or very stiff parts with 'clast check --build'"
+                f"stopped at step {self.step} (t = {self.time:.4g} s), where the numbers cannot be trusted any more: "
+                f"{complaint}. The step is {self.dt:.4g} s, the limit at the start {self.limits.stable:.4g} s: take a "
+                "smaller time.step, or look for overlapping or very stiff parts with 'clast check --build'"
             )
 
     def _remove_leavers(self) -> None:

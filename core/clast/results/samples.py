@@ -43,7 +43,14 @@ class Samples:
         return min(self.simulation.last_step, self.simulation.timeline.next_multiple(step, self.every))
 
     def observe(self, simulation: Simulation) -> None:
-        """Append one row to every curve and track."""
+        """Append one row to every curve and track.
+
+        Raises
+        ------
+        RunError
+            If the numbers cannot be trusted any more.
+        """
+        simulation.refuse_nonsense()
         self.store.append("curves", self._row(simulation))
         if len(self.particles):
             self.store.append("tracks/particles", self._particle_row(simulation))

@@ -1,0 +1,1 @@
+"""Whether the numbers of a running scene can be trusted."""

@@ -1,0 +1,106 @@
+"""Impacts ahead: bodies about to meet so fast that their impact is over within a few steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from clast.engine.blueprint import Blueprint
+from clast.engine.impact import impact_duration
+from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V
+from clast.engine.state import World
+from clast.scene.scene import Scene
+from clast.soundness.near import Energies, at_walls, near_pairs
+
+LEAST_STEPS = 5.0
+"""Fewest steps of an impact; with fewer its restitution is wrong by more than some per cent."""
+
+
+class Meeting(NamedTuple):
+    """Two bodies about to meet: who, their materials and radii (infinite for a wall), 1/m* in 1/kg, speed in m/s."""
+
+    who: str
+    materials: tuple[int, int]
+    radii: tuple[float, float]
+    per_mass: float
+    speed: float
+
+
+class ImpactsAhead:
+    """Finds impacts that a step cannot resolve, before they happen.
+
+    While nothing moves faster than a speed at which even the shortest impact of the scene is resolved, no pair is
+    looked at.
+    """
+
+    def __init__(self, scene: Scene, plan: Blueprint) -> None:
+        self.scene, self.plan = scene, plan
+        self.energies = Energies(scene, plan)
+        self.harmless = 0.0
+
+    def complaint(self, world: World, dt: float) -> str | None:
+        """Return who is about to meet too fast for steps of ``dt`` seconds."""
+        if not self.energies.constants:
+            return None
+        speeds = np.linalg.norm(world.particles.twist[:, V : V + 3], axis=1)
+        closing = 2.0 * float(speeds.max()) + float(np.linalg.norm(world.walls.velocity, axis=1).max(initial=0.0))
+        if closing <= self.harmless:
+            return None
+        if all(self.steps(each, dt) >= LEAST_STEPS for each in self._shortest(1.25 * closing)):
+            self.harmless = 1.25 * closing
+            return None
+        for meeting in self._meetings(world):
+            steps = self.steps(meeting, dt)
+            if steps < LEAST_STEPS:
+                return (
+                    f"{meeting.who} are about to meet with {meeting.speed:.3g} m/s, and their impact will be over in "
+                    f"{steps:.2g} steps, where {LEAST_STEPS:g} are the least"
+                )
+        return None
+
+    def steps(self, meeting: Meeting, dt: float) -> float:
+        """Return how many steps an impact lasts, without damping."""
+        energy = self.energies.of(meeting.materials, meeting.radii, meeting.per_mass)
+        size = min(meeting.radii)
+        return impact_duration(energy, 1.0 / meeting.per_mass, meeting.speed, size) / dt
+
+    def _shortest(self, speed: float) -> Iterator[Meeting]:
+        """Yield the meetings of the smallest particles of every two materials, and of one and a wall."""
+        scene, materials = self.scene, list(self.scene.config.materials)
+        walls = {materials.index(wall.material) for wall in scene.config.walls.values()}
+        present = set(scene.material.tolist())
+        lightest = {m: np.argmin(np.where(scene.material == m, scene.mass, np.inf)) for m in present}
+        for i, j in self.energies.constants:
+            if i not in present:
+                continue
+            r, per_mass = float(scene.radius[lightest[i]]), 1.0 / float(scene.mass[lightest[i]])
+            if j in present:
+                other = lightest[j]
+                together = per_mass + 1.0 / float(scene.mass[other])
+                yield Meeting("", (i, j), (r, float(scene.radius[other])), together, speed)
+            if j in walls:
+                yield Meeting("", (i, j), (r, np.inf), per_mass, speed)
+
+    def _meetings(self, world: World) -> Iterator[Meeting]:
+        """Yield the near pair whose impact would be the shortest, and everything near walls."""
+        particles, body = world.particles, world.particles.body
+        radius, v = particles.pose[:, RADIUS], particles.twist[:, V : V + 3]
+        i, j, normal, overlap = near_pairs(world, self.plan)
+        closing = np.einsum("kc,kc->k", v[i] - v[j], normal)
+        ahead = np.nonzero((overlap < 0.0) & (closing > 0.0))[0]
+        if len(ahead):
+            i, j, closing = i[ahead], j[ahead], closing[ahead]
+            k = int(np.argmin(radius[i] * radius[j] / (radius[i] + radius[j]) * closing**-0.2))  # as Hertz's duration
+            a, b = int(i[k]), int(j[k])
+            materials = (int(body[a, MATERIAL]), int(body[b, MATERIAL]))
+            per_mass = float(body[a, INVERSE_MASS] + body[b, INVERSE_MASS])
+            radii = (float(radius[a]), float(radius[b]))
+            yield Meeting(f"particles {a} and {b}", materials, radii, per_mass, float(closing[k]))
+        for wall, k, towards, overlap_k in at_walls(world, self.scene):
+            speed = float((v[k] - world.walls.velocity[wall]) @ towards)
+            if overlap_k < 0.0 and speed > 0.0:
+                who = f"particle {k} and the wall '{list(self.scene.config.walls)[wall]}'"
+                materials = (int(body[k, MATERIAL]), int(world.walls.material[wall]))
+                yield Meeting(who, materials, (float(radius[k]), np.inf), float(body[k, INVERSE_MASS]), speed)
