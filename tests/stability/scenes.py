@@ -32,11 +32,11 @@ def particle(
     return {name: [float(x) for x in vector] for name, vector in vectors.items()} | {"radius": float(radius)} | more
 
 
-def spheres(particles: Sequence[Mapping[str, Any]], changes: Mapping[str, Any]) -> SceneConfig:
+def spheres(particles: Sequence[Mapping[str, Any]], changes: Mapping[str, Any], base: str = "spheres") -> SceneConfig:
     """Return free spheres, all of them tracked; they are of the material ``first`` where they do not say."""
     each = [{"material": "first", **one} for one in particles]
     tracks = list(range(len(each)))
-    return scene("spheres", {"particles.particles": each, "output.tracks.particles": tracks, **changes})
+    return scene(base, {"particles.particles": each, "output.tracks.particles": tracks, **changes})
 
 
 def pair(

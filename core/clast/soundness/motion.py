@@ -32,7 +32,7 @@ def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | No
     way = np.abs(twist[:, V : V + 3]).max(axis=1) * dt / scene.radius.min()
     k = int(np.argmax(way))
     if way[k] > MOST_WAY:
-        return f"particle {k} moves farther than its radius allows, {way[k]:.2g} times the smallest radius in one step"
+        return f"particle {k} moves by {way[k]:.2g} times the smallest radius in one step"
     turn = np.abs(twist[:, W : W + 3]).max(axis=1) * dt
     k = int(np.argmax(turn))
     if plan.spin and turn[k] > MOST_TURN:

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from tests.stability.entry import Group
-from tests.stability.matrix import bonds, contacts, extremes, steps
+from tests.stability.matrix import bonds, contacts, crushing, extremes, steps
 
-GROUPS: tuple[Group, ...] = (*steps.GROUPS, *contacts.GROUPS, *bonds.GROUPS, *extremes.GROUPS)
+GROUPS: tuple[Group, ...] = (*steps.GROUPS, *contacts.GROUPS, *bonds.GROUPS, *crushing.GROUPS, *extremes.GROUPS)

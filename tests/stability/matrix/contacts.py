@@ -10,7 +10,7 @@ import numpy as np
 from clast import Simulation
 from clast.config.scene import SceneConfig
 from clast.engine.kernels.layout import V, W
-from tests.stability.entry import ACCURATE, REFUSED, Answer, Entry, Group, Ran
+from tests.stability.entry import ACCURATE, REFUSED, STOPPED, Answer, Entry, Group, Ran
 from tests.stability.measures import kinetic, rebound, worst
 from tests.stability.scenes import impact_duration, pair, particle, rule, spheres
 
@@ -28,6 +28,40 @@ def contrast(ratio: float) -> SceneConfig:
         "time.step": rule(0.02),
     }
     return pair(0.01, changes=changes)
+
+
+def resolved(steps: float, expected: str) -> Entry:
+    """Return a head-on impact that lasts so many steps."""
+    step = impact_duration(2.0, (1e-3, 1e-3)) / steps
+    changes = {"time.step": step, "contacts.pairs.default": {"restitution": 0.8}}
+    changes["time.end.time"] = 1e-5 + 40 * step + 3.0 * steps * step
+
+    def judge(ran: Ran) -> Answer:
+        return rebound(ran, 0.8, 0.05)
+
+    return Entry(f"{steps:g} steps", lambda: pair(changes=changes), judge, expected, steps in (6, 4), 1.0 / steps)
+
+
+def faster_and_faster(height: float, expected: str) -> Entry:
+    """Return a sphere that falls on a floor with a fixed step, which resolves an impact at 0.1 m/s with 10 steps."""
+
+    def make() -> SceneConfig:
+        made = [particle([0, 0, 1e-3 + height], 1e-3), particle([0, 0, FAR], 1e-3, material="second")]
+        changes = {
+            "walls.floor.point": [0, 0, 0],
+            "body_forces.0.acceleration": [0, 0, -G],
+            "time.step": 0.1 * impact_duration(0.1, (1e-3,)),
+            "time.end.time": 1.5 * sqrt(2.0 * height / G),
+            "output.samples": 2000,
+        }
+        return spheres(made, changes, "falling")
+
+    def judge(ran: Ran) -> Answer:
+        z, v = ran.particles["position"][:, 0, 2], ran.particles["velocity"][:, 0]
+        gained = 0.5 * (v[-1] @ v[-1]) + G * (z[-1] - z[0])
+        return Answer("energy stays", worst(np.array([gained / (G * height)])), 0.05)
+
+    return Entry(f"falls from {height:g} m", make, judge, expected, short=expected == STOPPED)
 
 
 def restitution(e: float) -> Entry:
@@ -55,7 +89,7 @@ def overlapping(share: float, allowed: bool) -> Entry:
     return Entry(name, lambda: pair(0.0, gap=-share, changes=changes), judge, expected, short=share == 0.5)
 
 
-def oblique(friction: float, spin: float = 0.0) -> Entry:
+def oblique(friction: float, spin: float = 0.0, expected: str = ACCURATE) -> Entry:
     """Return an oblique impact with friction; the answer is that of a 16 times finer step."""
     changes = {"contacts.pairs.default": {"restitution": 0.7, "sliding_friction": friction}}
 
@@ -66,7 +100,7 @@ def oblique(friction: float, spin: float = 0.0) -> Entry:
         return config.changed(sides | spins)
 
     name = f"μ = {friction:g}" + (f", spins of {spin:g} rad/s" if spin else "")
-    return Entry(name, make, as_with_a_finer_step, short=friction == 10.0)
+    return Entry(name, make, as_with_a_finer_step, expected, short=friction == 10.0)
 
 
 def as_with_a_finer_step(ran: Ran) -> Answer:
@@ -96,7 +130,7 @@ def rolling_off(ratio: float) -> Entry:
             "time.end.time": 7.0 * sqrt((R + r) / G),
             "output.samples": 4000,
         }
-        return spheres(made, changes)
+        return spheres(made, changes, "falling")
 
     def judge(ran: Ran) -> Answer:
         x = ran.particles["position"][:, 1]
@@ -124,7 +158,7 @@ def through_a_pore(ratio: float) -> Entry:
             "time.end.time": 0.3,
             "output.samples": 2000,
         }
-        return spheres(made, changes)
+        return spheres(made, changes, "falling")
 
     def judge(ran: Ran) -> Answer:
         z = ran.particles["position"][:, 3, 2]
@@ -138,8 +172,8 @@ def through_a_pore(ratio: float) -> Entry:
     return Entry(f"falls through a pore, 1 : {ratio:g}", make, judge)
 
 
-def plate(speed: float, e: float) -> Entry:
-    """Return a sphere at rest that a plate hits."""
+def plate(speed: float, e: float, expected: str = ACCURATE, step: Any = None) -> Entry:
+    """Return a sphere at rest that a plate hits; with the step that suits the speed, or another one."""
     lasts = impact_duration(speed, (1e-3,))
 
     def make() -> SceneConfig:
@@ -148,10 +182,10 @@ def plate(speed: float, e: float) -> Entry:
             "contacts.pairs.default": {"restitution": e},
             "walls.floor.point": [0, 0, 0],
             "walls.floor.motion.velocity": [0, 0, speed],
-            "time.step": rule(speed),
+            "time.step": rule(speed) if step is None else step,
             "time.end.time": 1e-5 / speed + 3.0 * lasts,
         }
-        return spheres(made, changes)
+        return spheres(made, changes, "falling")
 
     def judge(ran: Ran) -> Answer:
         v = ran.particles["velocity"][-1, 0, 2]
@@ -159,7 +193,8 @@ def plate(speed: float, e: float) -> Entry:
             f"leaves at {1.0 + e:g} times the plate's speed", worst(np.array([v / (1 + e) / speed - 1.0])), 0.01
         )
 
-    return Entry(f"{speed:g} m/s, e = {e:g}", make, judge, short=speed in (1e-4, 10.0) and e == 1.0)
+    name = f"{speed:g} m/s, e = {e:g}{'' if step is None else ', default step'}"
+    return Entry(name, make, judge, expected, short=speed in (1e-4, 10.0, 1e3) and e == 1.0)
 
 
 GROUPS = (
@@ -189,6 +224,18 @@ GROUPS = (
         ),
     ),
     Group(
+        "impacts",
+        "Time step: impacts",
+        "Two spheres meet at 1 m/s each with a restitution of 0.8: how many steps their impact lasts without "
+        "damping. Then a sphere falls on a floor with a step that resolves an impact at 0.1 m/s with 10 steps.",
+        (
+            *(resolved(steps, ACCURATE) for steps in (200, 100, 50, 20, 10, 6)),
+            *(resolved(steps, REFUSED) for steps in (4, 3, 2, 1)),
+            *(faster_and_faster(height, ACCURATE) for height in (1e-4, 1e-2, 0.2)),
+            *(faster_and_faster(height, STOPPED) for height in (1.0, 4.0)),
+        ),
+    ),
+    Group(
         "restitution",
         "Restitution",
         "Two spheres meet at 1 m/s each.",
@@ -198,12 +245,21 @@ GROUPS = (
         "friction",
         "Friction",
         "Two spheres meet at 45°, with a restitution of 0.7.",
-        (*map(oblique, (0.0, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0)), oblique(0.3, 1e4), oblique(10.0, 1e4)),
+        (
+            *map(oblique, (0.0, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0)),
+            oblique(0.3, 1e4),
+            oblique(10.0, 1e4),
+            oblique(0.3, 1e6, REFUSED),
+        ),
     ),
     Group(
         "plates",
         "Plate speed",
         "A plate hits a sphere at rest.",
-        tuple(plate(speed, e) for e in (1.0, 0.5) for speed in (1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0)),
+        (
+            *(plate(speed, e) for e in (1.0, 0.5) for speed in (1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0)),
+            plate(10.0, 1.0, step={"rule": "spectral"}),
+            plate(1e3, 1.0, STOPPED),
+        ),
     ),
 )

@@ -65,7 +65,7 @@ def bouncing(steps: int) -> SceneConfig:
         "time.end": {"steps": steps},
         "output.samples": 20_000,
     }
-    return spheres(made, changes)
+    return spheres(made, changes, "falling")
 
 
 def as_high_as_ever(ran: Ran) -> Answer:

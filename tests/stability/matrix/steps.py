@@ -23,7 +23,7 @@ UNSTABLE: dict[str, Any] = {"time.allow_unstable": True}
 def shaken_block(changes: dict[str, Any]) -> SceneConfig:
     """Return 27 bonded spheres with random velocities."""
     centres, bonds = block(3, 2.1e-3)
-    velocity = np.random.default_rng(1).normal(size=centres.shape)
+    velocity = 0.01 * np.random.default_rng(1).normal(size=centres.shape)
     made = [particle(x, 1e-3, v) for x, v in zip(centres, velocity - velocity.mean(axis=0), strict=True)]
     return bonded(made, bonds, changes)
 
@@ -55,13 +55,13 @@ def comes_to_rest(ran: Ran) -> Answer:
 
 
 def sweep(
-    make: Callable[[dict[str, Any]], SceneConfig], judge: Callable[[Ran], Answer], what: str = "", in_short: bool = True
+    make: Callable[[dict[str, Any]], SceneConfig], judge: Callable[[Ran], Answer], what: str = ""
 ) -> tuple[Entry, ...]:
     """Return a scene at every share of its true limit; above it as it stands, and with ``allow_unstable``."""
 
     def entry(share: float, expected: str, changes: dict[str, Any]) -> Entry:
         name = f"{what}{share:g} × limit{', allow_unstable' if changes else ''}"
-        short = in_short and share in (0.95, 1.05)
+        short = share in (0.95, 1.05)
         return Entry(name, lambda: at_share(make, share, changes), judge, expected, short, share)
 
     return (
@@ -75,7 +75,7 @@ GROUPS = (
     Group(
         "step_bonds",
         "Time step: bonds",
-        "27 spheres in a cubic grid, 54 elastic bonds, random velocities of 1 m/s, no damping, 20 000 steps. The "
+        "27 spheres in a cubic grid, 54 elastic bonds, random velocities of 1 cm/s, no damping, 20 000 steps. The "
         "limit is `spectral`.",
         sweep(shaken_block, lambda ran: drift(ran, 0.01)),
     ),
@@ -91,7 +91,7 @@ GROUPS = (
         "The same chain with a restitution of 0.5, and of 0.",
         (
             *sweep(lambda changes: pressed_chain(0.5, changes), comes_to_rest, "e = 0.5: "),
-            *sweep(lambda changes: pressed_chain(0.0, changes), comes_to_rest, "e = 0: ", in_short=False),
+            *sweep(lambda changes: pressed_chain(0.0, changes), comes_to_rest, "e = 0: "),
         ),
     ),
 )
