@@ -44,4 +44,4 @@ def draw_group(axis: Any, verdicts: Sequence[Verdict]) -> None:
             axis.plot(at, [height] * len(at), mark, color=colour, label=LABELS[kind], clip_on=False)
     axis.set(xscale="log", yscale="log", ylim=(1e-9, 1e2))
     axis.spines[["top", "right"]].set_visible(False)
-    axis.legend(fontsize=8, frameon=False, loc="lower right")
+    axis.legend(fontsize=8, frameon=False, loc="upper left")
