@@ -15,7 +15,7 @@ test: $(VENV)/.test
 	$(BIN)/pytest -n 2
 
 benchmark: $(VENV)/.test
-	$(BIN)/python -m tests.benchmarks
+	$(BIN)/clast bench --peer lammps
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)

@@ -198,3 +198,43 @@ def verify(
     replacement = Replacement(chosen_parts, files, overrides)
     if not verify_command.verify(cases, families, replacement, as_json, page):
         ctx.exit(1)
+
+
+@main.command()
+@click.option("-o", "--output", type=click.Path(path_type=Path), default="docs/benchmarks.md", show_default=True)
+@click.option("--only", multiple=True, metavar="NAME[,NAME]", help="Measure these sections; keep the others' results.")
+@click.option("--quick", "effort", flag_value="quick", help="Rough numbers in a few minutes.")
+@click.option("--full", "effort", flag_value="full", help="All sizes and seeds: an hour or more.")
+@click.option("--peer", type=click.Choice(["none", "lammps"]), default="none", help="Measure beside another program.")
+@click.option("--render", is_flag=True, help="Write the page from stored results, without measuring.")
+@click.option("--list", "listed", is_flag=True, help="List all sections.")
+@_plugin
+@click.pass_context
+def bench(
+    ctx: click.Context,
+    /,
+    output: Path,
+    only: tuple[str, ...],
+    effort: str | None,
+    peer: str,
+    render: bool,
+    listed: bool,
+    files: tuple[Path, ...],
+) -> None:
+    """Measure speed, and error against run time; write one page with plots."""
+    from clast import bench_command
+    from clast.bench.section import Effort
+    from clast.bench.suite import chosen
+
+    sections = chosen([name.strip() for names in only for name in names.split(",")])
+    if listed:
+        for section in sections:
+            click.echo(f"{section.name:12} {section.title}")
+    elif render:
+        bench_command.render(output)
+    else:
+        asked = ["clast bench", *([f"--{effort}"] if effort else []), *([f"--peer {peer}"] if peer != "none" else [])]
+        asked += [f"--only {','.join(only)}"] if only else []
+        command = " ".join([*asked, *(f"--plugin {file}" for file in files)])
+        if not bench_command.bench(sections, Effort(effort or "usual"), peer, files, command, output):
+            ctx.exit(1)

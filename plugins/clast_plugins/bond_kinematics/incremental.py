@@ -29,8 +29,10 @@ class Incremental(Params):
 
     Limits
     ------
-    First order in the step unless positions and velocities belong to the same instant (``integrator: midstep``);
-    energy is not exactly conserved. For comparison with other programs; ``total`` is cheaper and more accurate.
+    The sums take the velocities that forces are evaluated with. ``leapfrog`` and ``velocity_verlet`` evaluate with that
+    of the middle of the interval, so the sums are of second order; ``midstep`` with that of its end, so they are of
+    first order (``clast bench --only pair`` shows it). Energy is not exactly conserved. For comparison with other
+    programs; ``total`` is cheaper and more accurate.
 
     Source
     ------

@@ -40,9 +40,14 @@ def stage_now(clock: Integers, start_kick: float) -> Stage:
 
 @inlined
 def time_since_forces(clock: Integers, numbers: Numbers) -> float:
-    """Return the time since the last force evaluation in s."""
+    """Return the time since the last force evaluation in s.
+
+    The first step follows the forces at the start, so only its own first drift has passed by then.
+    """
     if clock[PRIMED] == 0:
         return 2.0 * numbers.start_kick * numbers.dt
+    if clock[STEP] == 0 and clock[STAGE] == 0 and numbers.start_kick == 0.0:
+        return STAGES[0].drift_before * numbers.dt
     span = SPANS[clock[STAGE]] * numbers.dt
     if clock[STEP] == numbers.first_step and clock[STAGE] == 0:
         span += numbers.late

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from tests.benchmarks.measure import BenchmarkError, Spread, run_child, say, spread, worker
-from tests.benchmarks.peer import Peer, write_input
-from tests.benchmarks.scenes import Body, scene, write_scene
+from clast.bench.measure import BenchmarkError, Spread, run_child, say, spread, worker
+from clast.bench.peer import Peer, write_input
+from clast.bench.scenes import Body, Size, scene, write_scene
 
 MODELS = {"micro_cracking": "Model 3", "elastic_plastic": "Model 2", "elastic": "Model 1"}
 PEER = "LAMMPS"
@@ -50,7 +50,7 @@ class Readings:
 class Comparison:
     """Clast's models and the peer on one body; ``problem`` says why the peer is missing."""
 
-    body: Body
+    body: Size
     window: Window
     clast: dict[str, Readings]
     peer: Readings | None
@@ -70,7 +70,7 @@ class Comparison:
 
     def nanoseconds_per_bond(self, model: str) -> float:
         """Return what a step costs per bond, all in."""
-        return 1e9 / (self.rate(model).median * len(self.body.ends))
+        return 1e9 / (self.rate(model).median * self.body.bonds)
 
 
 def compare(
@@ -93,7 +93,7 @@ def compare(
         for model, file in files.items():
             _time_clast(file, window, clast[model])
         say(f"{body.name}, turn {turn + 1}: {_turn_text(clast, beside)}")
-    return Comparison(body, window, clast, beside, problem)
+    return Comparison(body.size, window, clast, beside, problem)
 
 
 def _time_peer(peer: Peer, body: Body, window: Window, readings: Readings, folder: Path) -> None:

@@ -1,6 +1,6 @@
 """Where a step's time goes: each phase of the sweeps alone, and the arithmetic the laws need.
 
-``python -m tests.benchmarks.phases`` prints the tables of ``docs/performance.md``.
+``python -m clast.bench.phases`` prints the tables of ``docs/performance.md``.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ import numpy as np
 from numba import njit
 
 from clast import Simulation, load
+from clast.bench.scenes import Body, base_grain, grain_array, scene, write_scene, write_tables
 from clast.engine.compiler import INNER
 from clast.engine.kernels.layout import LANES
-from tests.benchmarks.scenes import Body, base_grain, grain_array, scene, write_scene, write_tables
 
 REPEATS = 7
 ARITHMETIC = re.compile(r"= (fadd|fsub|fmul|fdiv) <\d+ x double>|\w+ <\d+ x double> @llvm\.(sqrt)")
@@ -53,14 +53,14 @@ def sweeps(kernels: Kernels) -> dict[str, Callable[..., None]]:
         kernels.get("contact_sweep", "sweep_contacts"),
     )
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def bonds(world: Any, repeats: int) -> None:
         numbers = world.numbers
         for _ in range(repeats):
             for c in range(len(world.chunks) - 1):
                 sweep_bonds(world.bonds, c, world.particles, world.cracks, numbers, world.scratch[c], numbers.dt, 1)
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def contacts(world: Any, repeats: int) -> None:
         numbers, active = world.numbers, np.empty(LANES, np.uint32)
         for _ in range(repeats):
@@ -76,7 +76,7 @@ def bond_phases(kernels: Kernels) -> dict[str, Callable[..., None]]:
     gather, lane_work, scatter = (kernels.get("bond_lane", name) for name in ("gather", "bond_lane", "scatter"))
     read_uniforms = kernels.get("slots", "read_uniforms")
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def gathering(world: Any, repeats: int) -> None:
         for _ in range(repeats):
             for b in range(len(world.bonds.first)):
@@ -84,7 +84,7 @@ def bond_phases(kernels: Kernels) -> dict[str, Callable[..., None]]:
                     first, second = world.bonds.first[b, lane], world.bonds.second[b, lane]
                     gather(world.particles, first, second, world.scratch[0], lane)
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def arithmetic(world: Any, repeats: int) -> None:
         uniforms = read_uniforms(world.numbers.bond_uniforms)
         for _ in range(repeats):
@@ -93,7 +93,7 @@ def bond_phases(kernels: Kernels) -> dict[str, Callable[..., None]]:
                 for lane in range(LANES):
                     lane_work(world.scratch[0], data, lane, uniforms, world.numbers.dt)
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def scattering(world: Any, repeats: int) -> None:
         for _ in range(repeats):
             for b in range(len(world.bonds.first)):
@@ -109,13 +109,13 @@ def contact_phases(kernels: Kernels, touching: Any) -> dict[str, Callable[..., N
     gather, lane_work, scatter = (kernels.get("contact_sweep", name) for name in ("gather", "contact_lane", "scatter"))
     constants = kernels.get("slots", "row_constants")
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def gathering(world: Any, repeats: int) -> None:
         for _ in range(repeats):
             for k in range(len(touching)):
                 gather(world.particles, world.pairs, touching[k], world.numbers, world.scratch[0], k % LANES)
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def arithmetic(world: Any, repeats: int) -> None:
         shared, numbers = constants(world.numbers.contact_table[0, 0]), world.numbers
         for _ in range(repeats):
@@ -123,7 +123,7 @@ def contact_phases(kernels: Kernels, touching: Any) -> dict[str, Callable[..., N
                 for lane in range(LANES):
                     lane_work(world.scratch[0], lane, shared, numbers.dt, numbers.lever)
 
-    @njit(**INNER)
+    @njit(**INNER)  # type: ignore[untyped-decorator]
     def scattering(world: Any, repeats: int) -> None:
         for _ in range(repeats):
             for k in range(len(touching)):
@@ -134,7 +134,7 @@ def contact_phases(kernels: Kernels, touching: Any) -> dict[str, Callable[..., N
 
 def nanoseconds(work: Callable[..., None], world: Any, items: int, repeats: int) -> float:
     """Return the CPU ns per item and repeat, the least of several goes."""
-    call = njit(**INNER | {"no_cpython_wrapper": False})(work.py_func)
+    call = njit(**INNER | {"no_cpython_wrapper": False})(work.py_func)  # type: ignore[attr-defined]
     call(world, 1)
     found = []
     for _ in range(REPEATS):
@@ -147,7 +147,7 @@ def nanoseconds(work: Callable[..., None], world: Any, items: int, repeats: int)
 
 def operations(work: Callable[..., None], world: Any) -> Counter[str]:
     """Count the operations on vectors in what the compiler makes of a loop over lanes: so many has each lane."""
-    call = njit(**INNER | {"no_cpython_wrapper": False})(work.py_func)
+    call = njit(**INNER | {"no_cpython_wrapper": False})(work.py_func)  # type: ignore[attr-defined]
     call(world, 1)
     return Counter(a or b for text in call.inspect_llvm().values() for a, b in ARITHMETIC.findall(text))
 

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
 
-from tests.benchmarks.peer import VERSION
+from clast.bench.peer import VERSION
 
 
 class Machine(NamedTuple):

@@ -13,12 +13,13 @@ from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
-ROOT = Path(__file__).resolve().parents[2]
+from clast.errors import ClastError
+
 LAUNCHER = Path(__file__).with_name("launch.py")
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
 
 
-class BenchmarkError(Exception):
+class BenchmarkError(ClastError):
     """A command that was to be measured failed."""
 
 
@@ -67,7 +68,9 @@ def number(value: float) -> str:
     return f"{value:.1f}" if size >= 1 else f"{value:.2f}"
 
 
-def run_child(command: Sequence[str], folder: Path = ROOT, environment: Mapping[str, str] | None = None) -> Child:
+def run_child(
+    command: Sequence[str], folder: Path | None = None, environment: Mapping[str, str] | None = None
+) -> Child:
     """Run a command on one thread and wait for it.
 
     Raises
@@ -88,16 +91,16 @@ def run_child(command: Sequence[str], folder: Path = ROOT, environment: Mapping[
 
 
 def worker(task: str, *arguments: object, environment: Mapping[str, str] | None = None) -> tuple[Child, Any]:
-    """Run a task of :mod:`tests.benchmarks.worker` in a process of its own; return it and what it measured."""
-    command = [sys.executable, "-m", "tests.benchmarks.worker", task, *map(str, arguments)]
-    child = run_child(command, ROOT, environment)
+    """Run a task of :mod:`clast.bench.worker` in a process of its own; return it and what it measured."""
+    command = [sys.executable, "-m", "clast.bench.worker", task, *map(str, arguments)]
+    child = run_child(command, None, environment)
     return child, json.loads(child.output.strip().splitlines()[-1])
 
 
 def clast(*arguments: object, environment: Mapping[str, str] | None = None) -> Child:
     """Run the ``clast`` command of this environment."""
     program = Path(sys.executable).parent / "clast"
-    return run_child([str(program), *map(str, arguments)], ROOT, environment)
+    return run_child([str(program), *map(str, arguments)], None, environment)
 
 
 def say(text: str) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tests.benchmarks.features import EVERYTHING, Cost, Shares, shares
-from tests.benchmarks.measure import Spread, number, spread
-from tests.benchmarks.startup import OUTPUT, FirstRun, Wait
-from tests.benchmarks.throughput import MODELS, PEER, Comparison, Readings
+from clast.bench.features import EVERYTHING, Cost, Shares, shares
+from clast.bench.measure import Spread, number, spread
+from clast.bench.startup import OUTPUT, FirstRun, Wait
+from clast.bench.throughput import MODELS, PEER, Comparison, Readings
 
 MAIN_MODEL = "micro_cracking"
 
@@ -47,7 +47,7 @@ def _row(name: str, readings: Readings, comparison: Comparison, model: str | Non
         name,
         str(rate),
         "" if ratio is None else str(ratio),
-        number(1e9 / (rate.median * len(comparison.body.ends))),
+        number(1e9 / (rate.median * comparison.body.bonds)),
         number(max(readings.memory)),
         number(min(readings.set_up)),
         f"{1e3 * readings.force[-1]:.2f}",
@@ -86,7 +86,7 @@ def features(costs: dict[str, Cost], bonds: int) -> str:
         step = cost.step
         microseconds = Spread(*(1e-3 * value for value in step))
         change = "" if name == EVERYTHING else f"{100.0 * (step.median - whole) / whole:+.0f} %"
-        rows.append([cost.variant.title, str(microseconds), number(step.median / bonds), change])
+        rows.append([cost.title, str(microseconds), number(step.median / bonds), change])
     return table(("", "µs per step", "ns per bond and step", "change"), rows)
 
 

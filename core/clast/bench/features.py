@@ -8,8 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tests.benchmarks.measure import Spread, say, spread, worker
-from tests.benchmarks.scenes import Body, bond_model, scene, write_scene
+from clast.bench.measure import Spread, say, spread, worker
+from clast.bench.scenes import Body, bond_model, scene, write_scene
 
 SceneData = dict[str, Any]
 EVERYTHING = "everything"
@@ -27,7 +27,7 @@ class Variant(NamedTuple):
 class Cost(NamedTuple):
     """What a step of a variant costs, in ns."""
 
-    variant: Variant
+    title: str
     step: Spread
 
 
@@ -109,7 +109,7 @@ def measure_costs(files: dict[str, Path], first: int, steps: int, rounds: int) -
     known = {variant.name: variant for variant in VARIANTS}
     costs = {}
     for name, file in files.items():
-        costs[name] = Cost(known[name], spread([1e9 * t for t in times[file.stem]]))
+        costs[name] = Cost(known[name].title, spread([1e9 * t for t in times[file.stem]]))
     return costs
 
 

@@ -43,6 +43,14 @@ GRAINS_PER_SIDE = 5
 SPACING = 1.01
 
 
+class Size(NamedTuple):
+    """Name of a body, and how many particles and bonds it has."""
+
+    name: str
+    particles: int
+    bonds: int
+
+
 @dataclass(frozen=True)
 class Body:
     """Bonded spheres of one size.
@@ -63,6 +71,11 @@ class Body:
     position: NDArray[np.float64]
     ends: NDArray[np.int64]
     diameter: float
+
+    @property
+    def size(self) -> Size:
+        """Name and counts."""
+        return Size(self.name, len(self.position), len(self.ends))
 
     @property
     def lengths(self) -> NDArray[np.float64]:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.benchmarks.scenes import NUMBERS, Body
+from clast.bench.scenes import NUMBERS, Body
 
 VERSION = "2025.7.22.4.0"
 MPI = "mpich"
@@ -175,7 +175,7 @@ def contact_text() -> str:
     return f"hertz/material {E:.9e} {e} {nu} tangential mindlin NULL 1.0 {mu} damping tsuji"
 
 
-def bond_text(body: Body) -> str:
+def bond_text(body: Body, strength: float = NUMBERS.strength) -> str:
     """Return the coefficients of bonds: stiffnesses, strengths, no damping.
 
     With ``normalize yes`` stretch and shear are divided by each bond's own length; twist and bending are not, so
@@ -186,8 +186,8 @@ def bond_text(body: Body) -> str:
     E, J = NUMBERS.young_modulus, 2.0 * I
     G = E / (2.0 * (1.0 + NUMBERS.poisson_ratio))
     stiffness = (E * A, G * A, G * J / L, E * I / L)
-    strength = tuple(NUMBERS.strength * section for section in (A, A, I / R, J / R))
-    return " ".join(f"{value:.9e}" for value in (*stiffness, *strength, 0.0, 0.0, 0.0, 0.0))
+    strengths = tuple(strength * section for section in (A, A, I / R, J / R))
+    return " ".join(f"{value:.9e}" for value in (*stiffness, *strengths, 0.0, 0.0, 0.0, 0.0))
 
 
 def data_text(body: Body) -> str:

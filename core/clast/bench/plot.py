@@ -1,4 +1,4 @@
-"""The picture of the benchmark: bars of steps per CPU second, and the speed through a crushing."""
+"""Pictures of the benchmark: bars of steps per CPU second, and the speed through a crushing."""
 
 from __future__ import annotations
 
@@ -6,27 +6,41 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from tests.benchmarks.measure import number, spread
-from tests.benchmarks.startup import FirstRun
-from tests.benchmarks.throughput import MODELS, PEER, Comparison
+from clast.bench.measure import number, spread
+from clast.bench.startup import FirstRun
+from clast.bench.throughput import MODELS, PEER, Comparison
 
 CLAST_COLOUR, PEER_COLOUR = "#1f6f8b", "#b8b8b8"
 TITLES = {"grain": "one grain", "array": "125 grains"}
 
 
-def draw(comparisons: Sequence[Comparison], run: FirstRun | None, file: Path) -> None:
-    """Draw what was measured and write it as PNG."""
+def draw_rates(comparisons: Sequence[Comparison], file: Path) -> None:
+    """Draw the rates of both codes on every body, and write it as PNG."""
+    figure, axes = new_figure(len(comparisons))
+    for axis, comparison in zip(axes, comparisons, strict=True):
+        _draw_bars(axis, comparison)
+    save(figure, file)
+
+
+def draw_speed(run: FirstRun, file: Path) -> None:
+    """Draw the speed along a run, and write it as PNG."""
+    figure, axes = new_figure(1)
+    _draw_speed(axes[0], run)
+    save(figure, file)
+
+
+def new_figure(panels: int, width: float = 4.2, height: float = 3.4) -> tuple[Any, Any]:
+    """Return a figure and its panels, side by side."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    panels = len(comparisons) + (run is not None)
-    figure = Figure(figsize=(4.2 * panels, 3.4), layout="constrained")
+    figure = Figure(figsize=(width * panels, height), layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.subplots(1, panels, squeeze=False)[0]
-    for axis, comparison in zip(axes, comparisons, strict=False):
-        _draw_bars(axis, comparison)
-    if run is not None:
-        _draw_speed(axes[-1], run)
+    return figure, figure.subplots(1, panels, squeeze=False)[0]
+
+
+def save(figure: Any, file: Path) -> None:
+    """Write a figure as PNG."""
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=130)
 
@@ -39,7 +53,7 @@ def _draw_bars(axis: Any, comparison: Comparison) -> None:
     bars = axis.bar(list(rates), list(rates.values()), color=colours, width=0.65)
     axis.bar_label(bars, [number(rate) for rate in rates.values()], padding=2)
     body = comparison.body
-    size = f"{number(len(body.position))} particles, {number(len(body.ends))} bonds"
+    size = f"{number(body.particles)} particles, {number(body.bonds)} bonds"
     axis.set_title(f"{TITLES[body.name]}: {size}", fontsize=10)
     axis.set_ylabel("steps per CPU second")
     axis.margins(y=0.12)

@@ -10,14 +10,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tests.benchmarks.measure import ROOT, Child, Spread, clast, run_child, say, spread, worker
+from clast.bench.measure import Child, Spread, clast, run_child, say, spread, worker
+from clast.bench.places import scene_file
 
-CONFIG = ROOT / "configs" / "crush_grain.yaml"
 SHORT = ("time.end.strain=0.03", "output.frames=12", "output.samples=60")
 """The beginning of the ready scene, with as many samples and frames per step as the whole."""
 WRITERS = ("recording", "vtk", "figure", "picture")
 ALL = "all four in one process, as a run has them"
 OUTPUT = {"samples": "samples", "frames": "frames, each flushed to disk", "saving": "checkpoints"}
+
+
+READY = "crush_grain"
 
 
 class Wait(NamedTuple):
@@ -87,8 +90,8 @@ def measure_start(repeats: int, short: bool) -> tuple[FirstRun, list[Wait]]:
 def _first_run(folder: Path, caches: dict[str, str], short: bool) -> FirstRun:
     """Do what ``make run`` does on a new machine; to 3 % strain when short."""
     say("first run of configs/crush_grain.yaml, with empty caches")
-    command = [sys.executable, "-m", "tests.benchmarks.whole_run", str(CONFIG), str(folder / "run")]
-    child = run_child([*command, *(SHORT if short else ())], ROOT, caches)
+    command = [sys.executable, "-m", "clast.bench.whole_run", str(scene_file(READY)), str(folder / "run")]
+    child = run_child([*command, *(SHORT if short else ())], None, caches)
     told = json.loads(child.output.strip().splitlines()[-1])
     return FirstRun(child, told, _writing(folder / "run"), short)
 
@@ -106,8 +109,8 @@ def _writing(run: Path) -> dict[str, Writing]:
 def _waits(repeats: int, caches: dict[str, str]) -> list[Wait]:
     say("start-up")
     asked = [clast("--help", environment=caches) for _ in range(repeats)]
-    checked = [clast("check", CONFIG, environment=caches) for _ in range(repeats)]
-    started = [worker("first_step", CONFIG, environment=caches) for _ in range(repeats)]
+    checked = [clast("check", scene_file(READY), environment=caches) for _ in range(repeats)]
+    started = [worker("first_step", scene_file(READY), environment=caches) for _ in range(repeats)]
     seconds = [told["at"] - child.launched_at for child, told in started]
     return [
         _wait("help", "clast --help", asked, 0.3),

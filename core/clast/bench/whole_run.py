@@ -1,6 +1,6 @@
 """One run as a user makes it, timed part by part from inside; prints one line of JSON at the end.
 
-``python -m tests.benchmarks.whole_run FILE FOLDER [KEY=VALUE ...]``
+``python -m clast.bench.whole_run FILE FOLDER [KEY=VALUE ...]``
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class Clocks(Listener):
             return finish(*arguments)
 
         Frames.observe = look_and_mark  # type: ignore[method-assign, assignment]
-        _Session.finish = stop_and_finish  # type: ignore[method-assign]
+        _Session.finish = stop_and_finish  # type: ignore[method-assign, assignment]
 
 
 def speed(marks: Sequence[tuple[int, float, float, int]]) -> list[dict[str, float]]:
