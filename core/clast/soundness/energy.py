@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.kernels.layout import INVERSE_INERTIA, INVERSE_MASS, MATERIAL, RADIUS, V, W
+from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS
+from clast.engine.ledger import kinetic_energy
 from clast.engine.state import Floats, World
 from clast.scene.scene import Scene
 from clast.soundness.near import Energies, at_walls, near_pairs
@@ -55,13 +56,7 @@ class ClosedEnergy:
 
     def _moving(self, world: World, bonds: Floats) -> float:
         """Return kinetic energy and that of the bonds in J."""
-        twist, body = world.particles.twist, world.particles.body
-        squares = (twist**2)[:, V : V + 3].sum(axis=1), (twist**2)[:, W : W + 3].sum(axis=1)
-        each = [
-            0.5 * square[per > 0.0] / per[per > 0.0]
-            for square, per in zip(squares, (body[:, INVERSE_MASS], body[:, INVERSE_INERTIA]), strict=True)
-        ]
-        return float(sum(part.sum() for part in each) + bonds.sum())
+        return kinetic_energy(world.particles, 0.0) + float(bonds.sum())
 
     def _contacts(self, world: World) -> float:
         """Return the energy of everything that touches, without slip, in J."""

@@ -3,9 +3,13 @@
 import pytest
 from hypothesis import given
 
-from clast.engine.kernels.touching import since_touch
+from clast.engine.kernels.touching import share_since_touch
 from clast.maths.vec3 import dot, scale
 from tests.support.strategies import directions, numbers, vectors
+
+
+def since_touch(moved, n, overlap):
+    return scale(share_since_touch(moved, n, overlap), moved)
 
 
 def test_of_a_displacement_that_closes_a_gap_only_the_part_after_touch_counts():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from clast.engine.compiler import inlined
-from clast.maths.vec3 import Vec, dot, scale
+from clast.maths.vec3 import Vec, dot
 
 
 @inlined
@@ -11,9 +11,3 @@ def share_since_touch(moved: Vec, n: Vec, overlap: float) -> float:
     """Return the share of a displacement that came after touch: all of it, unless it closed more than the overlap."""
     closed = -dot(moved, n)
     return overlap / closed if closed > overlap else 1.0
-
-
-@inlined
-def since_touch(moved: Vec, n: Vec, overlap: float) -> Vec:
-    """Return the part of a displacement that came after touch: all of it, unless it closed more than the overlap."""
-    return scale(share_since_touch(moved, n, overlap), moved)
