@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from numpy.typing import NDArray
 
-from clast.errors import RunError
+from clast.errors import ClastError, RunError
+from clast.plugins.registry import one_line
 
 RESULTS_FILE = "results.h5"
 CONFIG_FILE = "config.yaml"
@@ -32,8 +35,19 @@ def open_results(folder: Path) -> Any:
         raise _busy(path) from error
     except PermissionError as error:
         raise RunError(f"{path}: no permission to read it") from error
-    except OSError as error:
-        raise unreadable(path, str(error)) from error
+    except (OSError, RuntimeError) as error:
+        raise unreadable(path, one_line(error)) from error
+
+
+@contextmanager
+def telling_damage(path: Path, where: str = "") -> Iterator[None]:
+    """Turn whatever a file raises that is not what it should be into one sentence: h5py raises nearly anything."""
+    try:
+        yield
+    except ClastError:
+        raise
+    except Exception as error:
+        raise unreadable(path, f"{where}{one_line(error)}") from error
 
 
 def check_contents(path: Path, file: Any) -> None:

@@ -20,7 +20,7 @@ from clast.results.reading import (
     read_json,
     read_yaml,
     strings,
-    unreadable,
+    telling_damage,
 )
 
 
@@ -147,10 +147,8 @@ class Run:
         self.folder = Path(folder)
         self._file = open_results(self.folder)
         try:
-            self._read()
-        except (KeyError, ValueError, OSError) as error:
-            self.close()
-            raise unreadable(self.folder / RESULTS_FILE, str(error).strip("'\"")) from error
+            with telling_damage(self.folder / RESULTS_FILE):
+                self._read()
         except RunError:
             self.close()
             raise
@@ -198,10 +196,8 @@ class Run:
         """
         if not -self.n_frames <= k < self.n_frames:
             raise IndexError(f"frame {k} of a run with {self.n_frames} frames")
-        try:
+        with telling_damage(self.folder / RESULTS_FILE, f"frame {k}: "):
             return self._read_frame(k % self.n_frames)
-        except OSError as error:
-            raise unreadable(self.folder / RESULTS_FILE, f"frame {k}: {error}") from error
 
     def _read_frame(self, k: int) -> Frame:
         frames = self._frames
@@ -225,7 +221,8 @@ class Run:
         -------
         (F,) float64
         """
-        return np.asarray(self._frames[name][: self.n_frames], dtype=np.float64)
+        with telling_damage(self.folder / RESULTS_FILE, f"{name} of the frames: "):
+            return np.asarray(self._frames[name][: self.n_frames], dtype=np.float64)
 
     def close(self) -> None:
         """Close the file; frames cannot be read any more, everything else can."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -116,6 +117,22 @@ def test_file_of_another_program_is_refused(tmp_path: Path) -> None:
         file["x"] = 1
     with pytest.raises(RunError, match="not written by Clast"):
         open_run(tmp_path)
+
+
+@pytest.mark.parametrize("begin", range(600, 12_000, 600))
+def test_whatever_is_overwritten_a_file_is_read_or_refused_in_one_sentence(folder: Path, begin: int) -> None:
+    path = folder / "results.h5"
+    torn = bytearray(path.read_bytes())
+    torn[begin : begin + 600] = bytes(600)
+    path.write_bytes(torn)
+    told = ""
+    try:
+        with open_run(folder) as run:
+            for k in range(run.n_frames):
+                run.frame(k)
+    except RunError as error:
+        told = str(error)
+    assert re.fullmatch(rf"({path}: cannot be read \(.*\); the file is damaged or cut short, .*)?", told)
 
 
 @pytest.mark.parametrize("name", ["curves", "bonds/ends"])
