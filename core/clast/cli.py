@@ -79,10 +79,7 @@ def main() -> None:
 def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, resume: bool) -> None:
     """Run the scene in FILE."""
     from clast import run_command
-    from clast.run_folder import refuse_foreign
 
-    if output is not None:
-        refuse_foreign(output)
     run_command.run(file, output=output, overrides=overrides, threads=threads, resume=resume)
 
 

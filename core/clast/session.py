@@ -16,13 +16,14 @@ from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import RunError
 from clast.parts.writer import Written
-from clast.results import checkpoint, curves, summary
+from clast.results import checkpoint, curves, store, summary
 from clast.results.frames import Frames
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import open_run
 from clast.results.samples import Samples
-from clast.results.store import Store
 from clast.results.watch import GO_ON, RunInterruptedError, Watch
+from clast.results.whole_file import whole_file
+from clast.run_folder import run_folder
 from clast.simulation import Simulation
 
 
@@ -67,7 +68,7 @@ def run_scene(
     ----------
     config : SceneConfig
     folder : Path
-        Made when missing; must not hold another run unless ``resume``.
+        Made when missing; must be new, empty, or hold a run that never reached its first checkpoint, unless ``resume``.
     resume : bool
         Go on from the folder's last good checkpoint.
     listener : Listener, optional
@@ -86,47 +87,19 @@ def run_scene(
         If the folder, the checkpoint or the run fails.
     """
     listener, folder = listener or Listener(), Path(folder)
-    prepare_folder(folder, resume)
     session = None
     try:
-        listener.building()
-        simulation = Simulation(config, threads)
-        if simulation.kernel.fresh:
-            listener.compiling()
-        session = _Session(simulation, folder, resume, listener)
-        elapsed, steps = session.advance()
-        return session.finish(elapsed, steps)
+        with run_folder(folder, resume) as goes_on:
+            listener.building()
+            simulation = Simulation(config, threads)
+            if simulation.kernel.fresh:
+                listener.compiling()
+            session = _Session(simulation, folder, goes_on, listener)
+            session.advance()
+            return session.finish()
     except KeyboardInterrupt:  # before or after the step loop, which handles signals itself
         advice = GO_ON if session is not None else "nothing was written yet"
         raise RunInterruptedError(signal.SIGINT, advice) from None
-    finally:
-        if session is None:
-            with suppress(OSError):
-                folder.rmdir()  # only when nothing was written
-
-
-def prepare_folder(folder: Path, resume: bool) -> None:
-    """Make the run folder.
-
-    Raises
-    ------
-    RunError
-        If it cannot be written, holds a run already, or holds none to resume.
-    """
-    has_run = (folder / "results.h5").exists()
-    if resume and not has_run:
-        raise RunError(f"{folder}: no run to resume here; name its folder with -o, or run without --resume")
-    if has_run and not resume:
-        raise RunError(
-            f"{folder}: holds a run already; add --resume to go on with it, or choose another folder with -o"
-        )
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".probe"
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise RunError(f"{folder}: cannot be written ({error.strerror}); choose another folder with -o") from error
 
 
 class _Session:
@@ -137,18 +110,26 @@ class _Session:
         self.parts = summary.parts(simulation)
         simulation.note_start()
         notes = checkpoint.load(folder, simulation) if resume else {}
-        self.store = Store(folder, resume)
+        self.seconds_before = float(notes.get("seconds", 0.0))
+        self.begun: float | None = None
+        if not resume:
+            store.begin(folder, simulation)
+        self.store = store.Store(folder)
         self.samples = Samples(simulation, self.store)
         self.frames = Frames(simulation, self.store)
         if resume:
             self.store.cut(notes["lengths"])
             self.samples.previous_step = int(notes["previous_sample"])
-        else:
-            self.store.describe(simulation)
-        (folder / CONFIG_FILE).write_text(dump_yaml(simulation.config.resolved()))
+        with whole_file(folder / CONFIG_FILE) as draft:
+            draft.write_text(dump_yaml(simulation.config.resolved()), encoding="utf-8")
 
-    def advance(self) -> tuple[float, int]:
-        """Run to the end; return seconds and steps of this session."""
+    @property
+    def seconds(self) -> float:
+        """Seconds spent in the step loop and its observers, by this session and those it goes on from."""
+        return self.seconds_before + (time.perf_counter() - self.begun if self.begun is not None else 0.0)
+
+    def advance(self) -> None:
+        """Run to the end."""
         simulation, listener = self.simulation, self.listener
         first = simulation.step
         output = simulation.config.output
@@ -160,18 +141,24 @@ class _Session:
                     self._look_at_start()
                     self.save()
                 listener.started(simulation)
-                begun = time.perf_counter()
+                self.begun = time.perf_counter()
                 simulation.run([self.samples, self.frames, watch])
-                elapsed = time.perf_counter() - begun
+                self.seconds_before, self.begun = self.seconds, None
                 self.save()
-            except RunInterruptedError:
-                self._save_what_is_sound()
+            except BaseException as error:
+                self._leave(asked=isinstance(error, RunInterruptedError))
                 raise
-            finally:
-                with suppress(RunError, OSError, RuntimeError):
-                    self.store.keep_cracks(simulation)
-                    self.store.close(complete=simulation.step >= simulation.last_step)
-        return elapsed, simulation.step - first
+            self.store.close(complete=True)
+
+    def _leave(self, asked: bool) -> None:
+        """Close the results of a run that ends early, behind a checkpoint where it was asked to end."""
+        try:
+            if asked:
+                self._save_what_is_sound()
+        finally:
+            with suppress(RunError):  # the one that ended the run is told
+                self.store.keep_cracks(self.simulation)
+                self.store.close(complete=False)
 
     def _look_at_start(self) -> None:
         self.samples.observe(self.simulation)
@@ -187,10 +174,14 @@ class _Session:
         """Write results and checkpoint to disk, in this order, so that the checkpoint never knows more."""
         self.store.keep_cracks(self.simulation)
         self.store.flush()
-        notes = {"lengths": self.store.lengths(), "previous_sample": self.samples.previous_step}
+        notes = {
+            "lengths": self.store.lengths(),
+            "previous_sample": self.samples.previous_step,
+            "seconds": self.seconds,
+        }
         checkpoint.save(self.folder, self.simulation, notes)
 
-    def finish(self, elapsed: float, steps: int) -> Outcome:
+    def finish(self) -> Outcome:
         """Write curves and summary, and let every writer of the scene write."""
         written: dict[str, Written] = {}
         with open_run(self.folder) as run:
@@ -200,7 +191,7 @@ class _Session:
                 columns = curves.flattened(tracks, run.tracked[what], what.rstrip("s"))
                 file = self.folder / f"tracks_{what}.csv"
                 written[f"tracks of {what}"] = Written(curves.write(file, {"time_s": run.curves["time_s"], **columns}))
-            told = summary.summarise(self.simulation, self.parts, run.curves, elapsed, steps)
+            told = summary.summarise(self.simulation, self.parts, run.curves, self.seconds)
             told |= summary.mass_scaling_results(self.simulation, run)
             written["summary"] = Written(summary.write(self.folder, told))
         writers = [chosen.name for chosen in self.simulation.config.output.writers]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -46,16 +48,23 @@ def start_and_stop(scene: Path, folder: Path, number: int) -> int:
     return process.wait()
 
 
+def notes(folder: Path) -> dict[str, Any]:
+    """Return the notes of the last checkpoint."""
+    with h5py.File(folder / "checkpoint.h5") as file:
+        return dict(json.loads(str(file.attrs["about"]))["notes"])
+
+
+def noted_seconds(folder: Path) -> float:
+    """Return how long the run had taken at the last checkpoint, in s."""
+    return float(notes(folder)["seconds"])
+
+
 def frames_on_disk(folder: Path) -> int:
     """Count the frames that the last checkpoint knows."""
     try:
-        with h5py.File(folder / "checkpoint.h5") as file:
-            text = str(file.attrs["about"])
+        return int(notes(folder)["lengths"].get("frames", 0))
     except (OSError, KeyError):
         return 0
-    import json
-
-    return int(json.loads(text)["notes"]["lengths"].get("frames", 0))
 
 
 @pytest.fixture(scope="module")
@@ -103,9 +112,13 @@ def test_a_stopped_run_resumes_to_the_same_bytes(
 ) -> None:
     folder = tmp_path / "stopped"
     assert start_and_stop(scene, folder, number) == code
+    before = noted_seconds(folder)
     resumed = run(scene, folder, "--resume")
     assert resumed.returncode == 0, resumed.stderr
     assert_same_bytes(whole, folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["wall_time_s"] > before > 0.0
+    assert summary["steps_per_s"] == summary["steps"] / summary["wall_time_s"]
 
 
 def test_another_scene_is_not_resumed(scene: Path, whole: Path) -> None:

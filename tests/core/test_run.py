@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import shutil
-from collections import namedtuple
 from pathlib import Path
 
 import numpy as np
@@ -76,24 +73,6 @@ def test_no_frames_are_kept_when_none_are_asked_for(collision: Path, tmp_path: P
     scene = load(collision).changed({"output.frames": 0, "output.writers": ["recording"]})
     outcome = run_scene(scene, tmp_path / "run")
     assert "no frames" in outcome.written["recording"].skipped
-
-
-def test_a_full_disk_ends_in_one_sentence_and_keeps_the_checkpoint(
-    collision: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    usage = namedtuple("usage", "total used free")
-    calls = []
-
-    def shrinking(path: object) -> object:
-        calls.append(path)
-        return usage(1, 1, 10**9 if len(calls) < 3 else 1000)
-
-    monkeypatch.setattr(shutil, "disk_usage", shrinking)
-    with pytest.raises(RunError, match=r"the disk is full .* --resume"):
-        run_scene(load(collision), tmp_path / "run")
-    monkeypatch.undo()
-    run_scene(load(collision), tmp_path / "run", resume=True)
-    assert json.loads((tmp_path / "run" / "summary.json").read_text())["steps"] == 4000
 
 
 def test_a_step_above_the_limit_is_refused(crush: Path) -> None:

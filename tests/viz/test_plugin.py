@@ -12,7 +12,7 @@ import pytest
 import clast_viz
 from clast import view_command
 from clast.errors import RunError
-from clast_viz.whole_file import whole_file
+from clast.results.whole_file import whole_file
 
 
 class Registry:

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from clast.errors import RunError
 from clast.results.run import Run
+from clast.results.whole_file import whole_file
 from clast_viz.curves import has_compression
 from clast_viz.figure import STYLE, draw_references, finish_axes, new_axes, save
-from clast_viz.whole_file import whole_file
 
 # Tol's "bright" scheme (personal.sron.nl/~pault), told apart by colour-blind readers;
 # its blue is left to the measurement.

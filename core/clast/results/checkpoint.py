@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -14,6 +13,8 @@ from numpy.typing import NDArray
 
 from clast.engine.timeline import Timeline
 from clast.errors import RunError
+from clast.plugins.registry import one_line
+from clast.results.room import in_memory
 from clast.simulation import Simulation
 
 FILE = "checkpoint.h5"
@@ -40,27 +41,33 @@ def save(folder: Path, simulation: Simulation, notes: Mapping[str, Any]) -> Path
     """
     path, draft = folder / FILE, folder / f"{FILE}.tmp"
     try:
-        draft.write_bytes(_image(simulation, notes))
+        draft.write_bytes(in_memory(lambda file: _fill(file, simulation, notes)))
         _settle(draft)
         if path.exists():
             path.replace(folder / PREVIOUS)
         draft.replace(path)
     except OSError as error:
         draft.unlink(missing_ok=True)
-        raise RunError(f"{path}: cannot be written ({error.strerror}); the checkpoint before it is kept") from error
+        raise RunError(f"{path}: cannot be written ({error.strerror}); {how_to_go_on(folder)}") from error
     return path
 
 
-def _image(simulation: Simulation, notes: Mapping[str, Any]) -> bytes:
-    """Return the checkpoint as the bytes of an HDF5 file, made in memory so that a full disk cannot tear it."""
-    import h5py
+def exists(folder: Path) -> bool:
+    """Tell whether a run folder has a checkpoint, good or not."""
+    return any((folder / name).exists() for name in (FILE, PREVIOUS))
 
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        for name, array in state_arrays(simulation):
-            file[name] = array
-        file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
-    return buffer.getvalue()
+
+def how_to_go_on(folder: Path) -> str:
+    """Return what to do when the disk took no more."""
+    if exists(folder):
+        return "the last checkpoint is kept: make room and go on with --resume"
+    return "the run has no checkpoint yet: make room and start it again"
+
+
+def _fill(file: Any, simulation: Simulation, notes: Mapping[str, Any]) -> None:
+    for name, array in state_arrays(simulation):
+        file[name] = array
+    file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
 
 
 def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
@@ -78,19 +85,15 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
     for path in found:
         try:
             arrays, about = _read(path)
-        except (OSError, KeyError, ValueError) as error:
-            reasons.append(f"{path}: cannot be read ({error})")
-            continue
-        _refuse_other(path, about, identity(simulation))
-        _restore(simulation, arrays)
-        simulation.timeline = Timeline(about["timeline"])
-        simulation.keeper.allowance = float(about["allowance"])
-        simulation.keeper.estimates = int(about["estimates"])
-        simulation.follow_timeline()
-        simulation.removed = int(about["removed"])
-        simulation.rebuilds = int(about["rebuilds"])
-        return dict(about["notes"])
-    raise RunError("; ".join(reasons))
+            _refuse_other(path, about, identity(simulation))
+            _restore(simulation, arrays, about)
+            return dict(about["notes"])
+        except (OSError, KeyError, TypeError, ValueError, RuntimeError) as error:
+            reasons.append(f"{path}: cannot be read ({one_line(error)})")
+    raise RunError(
+        f"{'; '.join(reasons)}: the run cannot go on from here. What it measured can still be read; start it anew in "
+        "another folder with -o"
+    )
 
 
 def state_arrays(simulation: Simulation) -> Iterator[tuple[str, NDArray[Any]]]:
@@ -164,7 +167,7 @@ def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) ->
         )
 
 
-def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]]) -> None:
+def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]], about: Mapping[str, Any]) -> None:
     fresh: dict[str, Any] = {}
     for group, record in simulation.world._asdict().items():
         if group in DERIVED:
@@ -175,6 +178,12 @@ def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]]) -> None
             tables = {name: np.ascontiguousarray(arrays[f"{group}/{name}"]) for name in record._fields}
             fresh[group] = record._replace(**tables)
     simulation.world = simulation.world._replace(**fresh)
+    simulation.timeline = Timeline(about["timeline"])
+    simulation.keeper.allowance = float(about["allowance"])
+    simulation.keeper.estimates = int(about["estimates"])
+    simulation.follow_timeline()
+    simulation.removed = int(about["removed"])
+    simulation.rebuilds = int(about["rebuilds"])
 
 
 def _settle(path: Path) -> None:

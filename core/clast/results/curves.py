@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.results.whole_file import whole_file
+
 FILE = "curves.csv"
 ENERGY = "energy_{}_J"
 """Name of the column of a term of the energy ledger."""
@@ -19,7 +21,7 @@ COUNTS = ("bonds_intact", "bonds_broken")
 def write(path: Path, curves: dict[str, NDArray[np.float64]]) -> Path:
     """Write columns of equal length; floats so that reading gives the same bits again."""
     columns = [[_text(name, value) for value in values.tolist()] for name, values in curves.items()]
-    with path.open("w", newline="") as file:
+    with whole_file(path) as draft, draft.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(curves)
         writer.writerows(zip(*columns, strict=True))

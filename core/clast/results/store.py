@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
+import math
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,15 +13,61 @@ from numpy.typing import NDArray
 
 from clast.engine.tables import crack_rows
 from clast.errors import RunError
+from clast.plugins.registry import one_line
+from clast.results.checkpoint import how_to_go_on
+from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
+from clast.results.whole_file import whole_file
 
 if TYPE_CHECKING:
     from clast.simulation import Simulation
 
 FILE = "results.h5"
-SPARE = 2**18
-"""Bytes left free on the disk, so that the file can always be closed."""
 CRACKS = ("time", "bond", "i", "j", "position", "mode", "normal_stress", "shear_stress", "energy")
-GROWING = ("curves", "frames", "tracks/particles", "tracks/bonds")
+TRACKS = ("particles", "bonds")
+GROWING = ("curves", "frames", *(f"tracks/{name}" for name in TRACKS), "cracks")
+DATASET_METADATA, CHUNK_METADATA = 2**13, 2**8
+"""Bytes by which header and index of a dataset may grow with each flush, and with each chunk beside its own."""
+
+
+def begin(folder: Path, simulation: Simulation) -> None:
+    """Write ``results.h5`` with what does not change during a run; it appears whole or not at all.
+
+    Raises
+    ------
+    RunError
+        If the disk refuses.
+    """
+    path = folder / FILE
+    try:
+        with whole_file(path) as draft:
+            draft.write_bytes(in_memory(lambda file: _describe(file, simulation)))
+    except OSError as error:
+        raise _refused(path, error) from error
+
+
+def _describe(file: Any, simulation: Simulation) -> None:
+    from clast import __version__
+
+    scene = simulation.scene
+    file.attrs.update({"schema": 1, "name": scene.config.name, "clast_version": __version__, "complete": False})
+    particles = file.create_group("particles")
+    particles["radius"], particles["grain"] = scene.radius, scene.grain
+    particles["material"] = scene.material.astype(np.uint8)
+    particles["material"].attrs["names"] = list(scene.config.materials)
+    bonds = file.create_group("bonds")
+    bonds["ends"] = scene.ends.astype(np.uint32)
+    bonds["diameter"], bonds["length"] = scene.diameter, scene.length
+    extent = np.ptp(scene.position, axis=0).max() + 2.0 * scene.radius.max()
+    for k, (name, wall) in enumerate(scene.config.walls.items()):
+        group = file.create_group(f"walls/{name}")
+        group["points"], group["triangles"] = wall.shape.part.mesh(wall.shape.params, 0.75 * extent)
+        group.attrs["index"] = k
+    for name in TRACKS:
+        wanted = getattr(scene.config.output.tracks, name)
+        if wanted:
+            file.create_group(f"tracks/{name}", track_order=True).attrs["numbers"] = list(wanted)
+    mode = _extended(file, "cracks", "mode", np.zeros(0, np.uint8))
+    mode.attrs["modes"] = list(simulation.plan.bonds.model.modes) if simulation.plan.bonds is not None else []
 
 
 class Store:
@@ -30,102 +76,45 @@ class Store:
     Parameters
     ----------
     folder : Path
-        Run folder.
-    resume : bool
-        Open the file there instead of starting a new one.
+        Run folder with the file that :func:`begin` wrote.
 
     Raises
     ------
     RunError
-        If the file cannot be written.
+        If the file cannot be opened.
     """
 
-    def __init__(self, folder: Path, resume: bool = False) -> None:
+    def __init__(self, folder: Path) -> None:
         import h5py
 
         self.path = folder / FILE
         self.flushed = 0.0
         self.pending: dict[str, dict[str, list[NDArray[Any]]]] = {}
         try:
-            self.file = h5py.File(self.path, "r+" if resume else "w")
-        except OSError as error:
-            raise RunError(f"{self.path}: cannot be {'opened' if resume else 'written'}: {error}") from error
-
-    def describe(self, simulation: Simulation) -> None:
-        """Write what does not change during a run."""
-        from clast import __version__
-
-        scene, file = simulation.scene, self.file
-        file.attrs.update({"schema": 1, "name": scene.config.name, "clast_version": __version__, "complete": False})
-        particles = file.create_group("particles")
-        particles["radius"], particles["grain"] = scene.radius, scene.grain
-        particles["material"] = scene.material.astype(np.uint8)
-        particles["material"].attrs["names"] = list(scene.config.materials)
-        bonds = file.create_group("bonds")
-        bonds["ends"] = scene.ends.astype(np.uint32)
-        bonds["diameter"], bonds["length"] = scene.diameter, scene.length
-        extent = np.ptp(scene.position, axis=0).max() + 2.0 * scene.radius.max()
-        for k, (name, wall) in enumerate(scene.config.walls.items()):
-            group = file.create_group(f"walls/{name}")
-            group["points"], group["triangles"] = wall.shape.part.mesh(wall.shape.params, 0.75 * extent)
-            group.attrs["index"] = k
-        for name in ("particles", "bonds"):
-            wanted = getattr(scene.config.output.tracks, name)
-            if wanted:
-                self._growing(f"tracks/{name}").attrs["numbers"] = list(wanted)
+            self.file = h5py.File(self.path, "r+")
+        except BlockingIOError as error:
+            raise RunError(
+                f"{self.path}: another program has it open, perhaps one that reads it; close that and try again"
+            ) from error
+        except PermissionError as error:
+            raise RunError(f"{self.path}: no permission to write it") from error
+        except (OSError, RuntimeError) as error:
+            raise _damaged(self.path, error) from error
 
     def append(self, group: str, row: Mapping[str, Any]) -> None:
         """Append one row to every dataset of a group; it reaches the file with the next flush."""
+        self._append(group, {name: np.array(value)[None] for name, value in row.items()})
+
+    def _append(self, group: str, rows: Mapping[str, NDArray[Any]]) -> None:
         columns = self.pending.setdefault(group, {})
-        for name, value in row.items():
-            columns.setdefault(name, []).append(np.array(value))
-
-    def _write_pending(self) -> None:
-        self._need_room(
-            sum(row.nbytes for columns in self.pending.values() for rows in columns.values() for row in rows)
-        )
-        for group, columns in self.pending.items():
-            table = self._growing(group)
-            for name, rows in columns.items():
-                self._extend(table, name, np.stack(rows))
-        self.pending.clear()
-
-    def _need_room(self, wanted: int) -> None:
-        """Refuse to write when the disk is nearly full: HDF5 files do not survive a write that fails half-way.
-
-        Raises
-        ------
-        RunError
-            With what to do.
-        """
-        free = shutil.disk_usage(self.path.parent).free
-        if free < 2 * wanted + SPARE:
-            raise RunError(
-                f"{self.path}: the disk is full ({free / 1e6:.1f} MB free). Everything up to the last checkpoint is "
-                "kept: make room and go on with --resume"
-            )
-
-    def _growing(self, group: str) -> Any:
-        """Return a group, made when missing; its datasets keep the order in which they were made."""
-        if group not in self.file:
-            self.file.create_group(group, track_order=True)
-        return self.file[group]
-
-    def _extend(self, table: Any, name: str, rows: NDArray[Any]) -> None:
-        shape = rows.shape[1:]
-        if name not in table:
-            chunk = max(1, min(512, 262144 // max(1, rows[0].nbytes)))
-            limit = (None, *(size or None for size in shape))
-            table.create_dataset(name, (0, *shape), rows.dtype, maxshape=limit, chunks=_chunk(chunk, shape))
-        data = table[name]
-        data.resize(len(data) + len(rows), axis=0)
-        data[-len(rows) :] = rows
+        for name, values in rows.items():
+            columns.setdefault(name, []).append(values)
 
     def keep_cracks(self, simulation: Simulation) -> None:
-        """Bring the crack table up to date."""
+        """Append the cracks that are not in the table yet."""
         cracks, scene = simulation.world.cracks, simulation.scene
-        rows = crack_rows(cracks)
-        count, bond = len(rows), cracks.bond[rows]
+        rows = crack_rows(cracks)[self._known("cracks") :]
+        bond = cracks.bond[rows]
         area = 0.25 * np.pi * scene.diameter[bond] ** 2
         columns: tuple[NDArray[Any], ...] = (
             simulation.timeline.times(cracks.step[rows]),
@@ -138,18 +127,12 @@ class Store:
             cracks.load[rows, 1] / area,
             cracks.load[rows, 2],
         )
-        try:
-            table = self.file.require_group("cracks")
-            for name, values in zip(CRACKS, columns, strict=True):
-                if name not in table:
-                    table.create_dataset(name, (0, *values.shape[1:]), values.dtype, maxshape=(None, *values.shape[1:]))
-                known = len(table[name])
-                table[name].resize(count, axis=0)
-                table[name][known:] = values[known:]
-            modes = simulation.plan.bonds.model.modes if simulation.plan.bonds is not None else ()
-            table["mode"].attrs["modes"] = list(modes)
-        except OSError as error:
-            raise self._full(error) from error
+        self._append("cracks", dict(zip(CRACKS, columns, strict=True)))
+
+    def _known(self, group: str) -> int:
+        """Return how many rows a group has, in the file and on the way to it."""
+        waiting = next(iter(self.pending.get(group, {}).values()), [])
+        return self._length(group) + sum(len(rows) for rows in waiting)
 
     def keep_up(self, simulation: Simulation) -> None:
         """Bring frames and cracks to disk, unless that was done within the last second."""
@@ -159,46 +142,108 @@ class Store:
 
     def lengths(self) -> dict[str, int]:
         """Return how many rows each growing group has."""
-        found = {name: self._length(name) for name in (*GROWING, "cracks")}
+        found = {name: self._length(name) for name in GROWING}
         return {name: length for name, length in found.items() if length}
 
     def _length(self, group: str) -> int:
-        if group not in self.file:
-            return 0
-        return min((len(data) for data in self.file[group].values() if hasattr(data, "shape")), default=0)
+        return min((len(data) for data in self._tables(group)), default=0)
+
+    def _tables(self, group: str) -> list[Any]:
+        return list(self.file[group].values()) if group in self.file else []
 
     def cut(self, lengths: Mapping[str, int]) -> None:
-        """Forget rows beyond the given lengths: what a run wrote after its last checkpoint."""
-        for group in (*GROWING, "cracks"):
-            if group in self.file:
-                for data in self.file[group].values():
-                    if hasattr(data, "shape"):
-                        data.resize(lengths.get(group, 0), axis=0)
+        """Forget rows beyond the given lengths: what a run wrote after its last checkpoint.
+
+        Raises
+        ------
+        RunError
+            If the file is damaged, or lacks rows that the checkpoint knows.
+        """
+        try:
+            with room_beyond(self.file, SPARE):
+                for group in GROWING:
+                    length = lengths.get(group, 0)
+                    if self._length(group) < length:
+                        raise ValueError(f"{group} has {self._length(group)} rows, the checkpoint knows {length}")
+                    for data in self._tables(group):
+                        data.resize(length, axis=0)
+        except NoRoomError as error:
+            raise _refused(self.path, error) from error
+        except (KeyError, ValueError, OSError, RuntimeError) as error:
+            raise _damaged(self.path, error) from error
 
     def flush(self) -> None:
-        """Bring everything to disk."""
-        try:
-            self._write_pending()
-            self.file.flush()
-            self.flushed = time.monotonic()
-        except OSError as error:
-            raise self._full(error) from error
+        """Bring everything to disk.
+
+        Raises
+        ------
+        RunError
+            If the disk refuses; what it took before stays.
+        """
+        columns = [
+            (group, name, np.concatenate(rows))
+            for group, columns in self.pending.items()
+            for name, rows in columns.items()
+        ]
+        self.pending.clear()
+        if columns:
+            try:
+                with room_beyond(self.file, SPARE + sum(self._growth(*column) for column in columns)):
+                    for column in columns:
+                        _extended(self.file, *column)
+            except (OSError, RuntimeError) as error:
+                raise _refused(self.path, error) from error
+        self.flushed = time.monotonic()
+
+    def _growth(self, group: str, name: str, rows: NDArray[Any]) -> int:
+        """Return the most bytes that rows add to the file: chunks are written whole."""
+        place = f"{group}/{name}"
+        length, chunk = (len(self.file[place]), self.file[place].chunks) if place in self.file else (0, _chunk(rows))
+        chunks = -(-(length + len(rows)) // chunk[0]) - -(-length // chunk[0])
+        return DATASET_METADATA + chunks * (CHUNK_METADATA + math.prod(chunk) * rows.itemsize)
 
     def close(self, complete: bool) -> None:
-        """Close the file, noting whether the run came to its end."""
+        """Close the file, noting whether the run came to its end.
+
+        Raises
+        ------
+        RunError
+            If the disk refuses what was not flushed; what it took before stays.
+        """
         try:
-            self._write_pending()
-            self.file.attrs["complete"] = complete
-            self.file.close()
+            self.flush()
+            self.file.attrs.modify("complete", complete)  # in its place, which needs no room
         except (OSError, RuntimeError) as error:
-            raise self._full(error) from error
-
-    def _full(self, error: Exception) -> RunError:
-        return RunError(
-            f"{self.path}: writing failed ({error}). Is the disk full? The last checkpoint is kept: make room and go "
-            "on with --resume"
-        )
+            raise _refused(self.path, error) from error
+        finally:
+            self.file.close()
 
 
-def _chunk(rows: int, shape: tuple[int, ...]) -> tuple[int, ...]:
-    return (rows, *(max(1, n) for n in shape))
+def _extended(file: Any, group: str, name: str, rows: NDArray[Any]) -> Any:
+    """Append rows to a dataset, made when missing, and return it."""
+    if group not in file:
+        file.create_group(group, track_order=True)  # columns keep the order in which they came
+    table, shape = file[group], rows.shape[1:]
+    if name not in table:
+        limit = (None, *(size or None for size in shape))
+        table.create_dataset(name, (0, *shape), rows.dtype, maxshape=limit, chunks=_chunk(rows))
+    data = table[name]
+    data.resize(len(data) + len(rows), axis=0)
+    data[len(data) - len(rows) :] = rows
+    return data
+
+
+def _chunk(rows: NDArray[Any]) -> tuple[int, ...]:
+    shape = tuple(max(1, size) for size in rows.shape[1:])
+    return (max(1, min(512, 2**18 // (math.prod(shape) * rows.itemsize))), *shape)
+
+
+def _refused(path: Path, error: Exception) -> RunError:
+    reason = error.strerror if isinstance(error, OSError) and error.strerror else one_line(error)
+    return RunError(f"{path}: cannot be written ({reason}); {how_to_go_on(path.parent)}")
+
+
+def _damaged(path: Path, error: Exception) -> RunError:
+    return RunError(
+        f"{path}: is damaged, so the run cannot go on ({one_line(error)}); start it anew in another folder with -o"
+    )

@@ -19,6 +19,7 @@ from clast.results.energy import energy_results
 from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
 from clast.results.run import Run
+from clast.results.whole_file import whole_file
 from clast.simulation import Simulation
 
 FILE = "summary.json"
@@ -27,7 +28,7 @@ Curves = dict[str, NDArray[np.float64]]
 Parts = dict[str, dict[str, str]]
 
 
-def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: float, steps_now: int) -> dict[str, Any]:
+def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: float) -> dict[str, Any]:
     """Return the summary of a run.
 
     Parameters
@@ -39,9 +40,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
     curves : mapping of (s,) arrays
         The sampled curves.
     wall_time : float
-        Seconds spent in the step loop and its observers in this session.
-    steps_now : int
-        Steps taken in this session.
+        Seconds spent in the step loop and its observers, over all sessions of the run.
     """
     scene = simulation.scene
     label = fragments(len(scene.radius), scene.ends, simulation.bond_loads()[:, 0] > 0.0)
@@ -66,7 +65,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "steps": simulation.step,
         "simulated_time_s": simulation.time,
         "wall_time_s": wall_time,
-        "steps_per_s": steps_now / wall_time if wall_time > 0 else None,
+        "steps_per_s": simulation.step / wall_time if wall_time > 0 else None,
         "neighbour_lists_made": simulation.rebuilds,
         "bonds_broken": simulation.bonds_broken,
         "bonds_intact": simulation.bonds_intact,
@@ -192,5 +191,6 @@ def poisson(config: Any) -> float:
 def write(folder: Path, summary: dict[str, Any]) -> Path:
     """Write the summary as JSON."""
     path = folder / FILE
-    path.write_text(json.dumps(summary, indent=2) + "\n")
+    with whole_file(path) as draft:
+        draft.write_text(json.dumps(summary, indent=2) + "\n")
     return path
