@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from clast.config.scene import SceneConfig, load
+from clast.errors import RunError
 from clast.forecast import duration, run_seconds, time_concerns
 from clast.results.energy import sentence
 from clast.session import Listener, Outcome, run_scene
@@ -36,6 +37,12 @@ def run(
     with console_listener(config) as listener:
         outcome = run_scene(config, folder, resume, listener, threads)
     print_outcome(outcome)
+    failed = [name for name, written in outcome.written.items() if written.failed]
+    if failed:
+        raise RunError(
+            f"{folder}: the results are complete, but what {' and '.join(failed)} should show was not written; the "
+            f"reason stands above. Mend it and run `clast write {folder}`"
+        )
 
 
 def default_folder(config: SceneConfig, resume: bool) -> Path:

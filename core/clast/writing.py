@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 from types import FrameType
 from typing import Any, NoReturn
 
-from clast.parts.writer import Written
+from clast.parts.writer import NOT_WRITTEN, Written
 from clast.results.watch import RunInterruptedError, signals_to
 
 
@@ -50,7 +50,7 @@ def write(folder: Path, names: Sequence[str], starts: Callable[[str], Any]) -> d
                 with TemporaryDirectory(prefix=".writing-", dir=folder, ignore_cleanup_errors=True) as drafts:
                     written |= _one_process(folder, Path(drafts), left, starts)
     except OSError as error:  # no room for drafts, or for one more process
-        written = {name: Written(None, f"not written: {error}") for name in names} | written
+        written = {name: Written(None, f"{NOT_WRITTEN}{error}") for name in names} | written
     return written
 
 
@@ -72,7 +72,7 @@ def _one_process(folder: Path, drafts: Path, names: Sequence[str], starts: Calla
             else:
                 starts(name)
                 lost = [name]
-        reason = f"not written: the process that draws ended with {_end(process.wait())}"
+        reason = f"{NOT_WRITTEN}the process that draws ended with {_end(process.wait())}"
     return written | {name: Written(None, reason) for name in lost}
 
 

@@ -6,6 +6,7 @@ when it ends. What writers print themselves goes to standard error.
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import shutil
@@ -18,10 +19,14 @@ from typing import TextIO
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig, load
 from clast.errors import ClastError, RunError
-from clast.parts.writer import Written
+from clast.parts.writer import NOT_WRITTEN, Written
 from clast.plugins.registry import one_line
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import Run, open_run
+
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+PROBED = 2**18
+"""Bytes that must be free when a writer has ended; more than libraries write at once."""
 
 
 def main(folder: Path, drafts: Path, names: Sequence[str]) -> None:
@@ -36,7 +41,7 @@ def main(folder: Path, drafts: Path, names: Sequence[str]) -> None:
             run = open_run(folder)
         except ClastError as error:
             for name in names:
-                tell(name, "", f"not written: {error}")
+                tell(name, "", f"{NOT_WRITTEN}{error}")
             return
         with run:
             for chosen in writers:
@@ -80,9 +85,10 @@ def _write(chosen: Chosen, run: Run, drafts: Path) -> Written:
             if result.path is None:
                 return result
             path = result.path
+        _refuse_full_disk(drafts)
         return Written(_kept(path, drafts, run.folder))
     except Exception as error:  # whatever a writer raises costs its own file only
-        return Written(None, f"not written: {_told(error)}")
+        return Written(None, f"{NOT_WRITTEN}{_told(error, drafts)}")
     finally:
         _clear(drafts)
 
@@ -104,8 +110,23 @@ def _clear(drafts: Path) -> None:
     drafts.mkdir()
 
 
-def _told(error: Exception) -> str:
+def _refuse_full_disk(drafts: Path) -> None:
+    """Refuse what was written to a disk that is full now: not every library tells that it wrote half a file."""
+    probe = drafts / ".probe"
+    try:
+        probe.write_bytes(bytes(PROBED))
+    finally:
+        probe.unlink(missing_ok=True)
+
+
+def _told(error: Exception, drafts: Path) -> str:
     """Say what went wrong; of a mistake in a writer also where."""
+    try:
+        if isinstance(error, OSError) and error.errno in NO_ROOM:
+            raise error
+        _refuse_full_disk(drafts)
+    except OSError as full:
+        return f"{full.strerror}: make room and write it again"
     if isinstance(error, ClastError | OSError):
         return str(error)
     frame = traceback.extract_tb(error.__traceback__)[-1]

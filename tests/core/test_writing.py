@@ -252,6 +252,19 @@ def test_clast_write_takes_any_writer_and_tells_of_those_that_fail(folder: Path)
     assert "no torn: not written" in told.output
 
 
+def test_a_run_whose_writer_fails_keeps_its_results_and_ends_with_exit_code_1(scene: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    options = ["--set", "output.writers=[words, torn, unwilling]"]
+    told = CliRunner().invoke(main, ["run", str(scene), "-o", str(folder), *options])
+    assert told.exit_code == 1
+    assert told.stderr.endswith(
+        f"{folder}: the results are complete, but what torn should show was not written; the reason stands above. Mend "
+        f"it and run `clast write {folder}`\n"
+    )
+    assert "no torn: not written: " in told.stdout
+    assert (folder / "words.txt").exists()
+
+
 def test_clast_write_says_what_is_wrong_with_a_name_or_a_folder(folder: Path, tmp_path: Path) -> None:
     unknown = CliRunner().invoke(main, ["write", str(folder), "wrods"])
     assert unknown.exit_code == 2

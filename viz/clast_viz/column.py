@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from clast.results.room import SPARE, room_beyond
 
 _HELD_BYTES = 1 << 20
 _CHUNK_ROWS = 1 << 16
@@ -49,13 +52,20 @@ class Column:
         if not self._held:
             return
         rows = np.concatenate(self._held)
-        if self._name not in self._group:
-            self._create(rows)
-        dataset = self._group[self._name]
-        dataset.resize(self._length, axis=0)
-        if len(rows):
-            dataset[self._length - len(rows) :] = rows
+        # the chunks begun before and now are written whole; what cannot be compressed grows by less than a hundredth
+        chunk = math.prod(rows.shape[1:]) * rows.itemsize * self._chunk_rows(rows)
+        with room_beyond(self._group.file, SPARE + (rows.nbytes + 2 * chunk) * 101 // 100):
+            if self._name not in self._group:
+                self._create(rows)
+            dataset = self._group[self._name]
+            dataset.resize(self._length, axis=0)
+            if len(rows):
+                dataset[self._length - len(rows) :] = rows
         self._held = []
+
+    def _chunk_rows(self, rows: NDArray[Any]) -> int:
+        known = self._group.get(self._name)
+        return min(max(len(rows), 1), _CHUNK_ROWS) if known is None else int(known.chunks[0])
 
     def _create(self, rows: NDArray[Any]) -> None:
         # gzip and shuffle are the only filters that VTK reads
@@ -63,7 +73,7 @@ class Column:
             self._name,
             (0, *rows.shape[1:]),
             maxshape=(None, *rows.shape[1:]),
-            chunks=(min(max(len(rows), 1), _CHUNK_ROWS), *rows.shape[1:]),
+            chunks=(self._chunk_rows(rows), *rows.shape[1:]),
             dtype=rows.dtype,
             compression="gzip",
             compression_opts=1,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -44,6 +45,7 @@ class Cracks(NamedTuple):
 
 def write_recording(run: Run, params: RecordingParams, path: Path) -> Written:
     """Write ``recording.rrd``: particles, bonds coloured by load, cracks, walls, curves, events."""
+    os.environ.setdefault("RUST_LOG", "off")  # what rerun logs about its file, its exceptions or the file's end tell
     import rerun as rr
 
     if run.n_frames == 0:

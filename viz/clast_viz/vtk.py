@@ -11,11 +11,14 @@ from pydantic import Field
 
 from clast.parts.params import Params
 from clast.parts.writer import Written
+from clast.results.room import SPARE, in_memory, room_beyond
 from clast.results.run import Frame, Run
 from clast_viz.column import Column
 
 FILE = "particles.vtkhdf"
 
+# VTK reads nothing, without a word, from files in the newest HDF5 layout
+_LAYOUT = ("earliest", "v110")
 _CELL_KINDS = ("Vertices", "Lines", "Polygons", "Strips")
 
 
@@ -38,8 +41,8 @@ def write_vtk(run: Run, params: VtkParams, path: Path) -> Written:
 
     if run.n_frames == 0:
         return Written(None, "the run has recorded no frame")
-    # VTK reads nothing, without a word, from files in the newest HDF5 layout
-    with h5py.File(path, "w", libver=("earliest", "v110")) as file:
+    path.write_bytes(in_memory(lambda file: file.create_group("VTKHDF"), libver=_LAYOUT))
+    with h5py.File(path, "r+", libver=_LAYOUT) as file:
         polydata = TemporalPolyData(file)
         for k in _chosen_frames(run.n_frames, params.every):
             _append_frame(polydata, run, run.frame(k))
@@ -53,13 +56,14 @@ class TemporalPolyData:
     Parameters
     ----------
     file : h5py.File
-        An empty file to write to.
+        A file to write to, with an empty group ``VTKHDF``.
     """
 
     def __init__(self, file: Any) -> None:
-        self._root = file.create_group("VTKHDF")
-        self._root.attrs["Version"] = np.array([2, 2], dtype=np.int64)
-        self._root.attrs.create("Type", b"PolyData", dtype="S8")
+        self._root = file["VTKHDF"]
+        with room_beyond(file, SPARE):
+            self._root.attrs["Version"] = np.array([2, 2], dtype=np.int64)
+            self._root.attrs.create("Type", b"PolyData", dtype="S8")
         self._columns: dict[str, Column] = {}
         self._steps: dict[str, list[Any]] = {}
 
@@ -91,10 +95,15 @@ class TemporalPolyData:
         """Write what is still held back and the table of steps; the file is complete after this."""
         for column in self._columns.values():
             column.flush()
-        steps = self._root.create_group("Steps")
-        steps.attrs["NSteps"] = len(self._steps["Values"])
-        for name, rows in self._steps.items():
-            steps[name] = np.array(rows, dtype=np.float64 if name == "Values" else np.int64)
+        tables = {
+            name: np.array(rows, dtype=np.float64 if name == "Values" else np.int64)
+            for name, rows in self._steps.items()
+        }
+        with room_beyond(self._root.file, SPARE + sum(table.nbytes for table in tables.values())):
+            steps = self._root.create_group("Steps")
+            steps.attrs["NSteps"] = len(self._steps["Values"])
+            for name, table in tables.items():
+                steps[name] = table
 
     def _append_cells(self, kind: str, cells: NDArray[np.int64]) -> tuple[int, int]:
         count, size = cells.shape

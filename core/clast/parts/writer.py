@@ -13,12 +13,21 @@ if TYPE_CHECKING:
     from clast.results.run import Run
 
 
+NOT_WRITTEN = "not written: "
+"""What the reason begins with where a writer failed."""
+
+
 @dataclass(frozen=True)
 class Written:
     """Outcome of a writer: the file, or the plain sentence that says why there is none."""
 
     path: Path | None
     skipped: str = ""
+
+    @property
+    def failed(self) -> bool:
+        """Whether the file could not be written, rather than had nothing to show."""
+        return self.skipped.startswith(NOT_WRITTEN)
 
 
 @dataclass(frozen=True)
