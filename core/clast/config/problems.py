@@ -19,6 +19,37 @@ MISSING = "clast_missing"
 """The key is not there."""
 UNKNOWN_PART = "clast_unknown_part"
 """No part has this name: what a plugin that could not be loaded may have brought."""
+_WHOLE, _LIST = "a whole number is needed", "a list is needed, such as [first, second]"
+_NEEDED = {
+    "bool_parsing": "true or false is needed",
+    "bool_type": "true or false is needed",
+    "finite_number": "a finite number is needed",
+    "float_parsing": "a number is needed",
+    "float_type": "a number is needed",
+    "frozen_set_type": _LIST,
+    "greater_than": "must be greater than {gt}",
+    "greater_than_equal": "must be at least {ge}",
+    "int_from_float": _WHOLE,
+    "int_parsing": _WHOLE,
+    "int_parsing_size": "a whole number with fewer digits is needed",
+    "int_type": _WHOLE,
+    "less_than": "must be less than {lt}",
+    "less_than_equal": "must be at most {le}",
+    "list_type": _LIST,
+    "multiple_of": "must be a multiple of {multiple_of}",
+    "none_required": "nothing may stand here",
+    "path_type": "the path of a file is needed",
+    "set_type": _LIST,
+    "string_pattern_mismatch": "a text that matches {pattern} is needed",
+    "string_too_long": "a text of at most {max_length} characters is needed",
+    "string_too_short": "a text of at least {min_length} characters is needed",
+    "string_type": "a text is needed",
+    "string_unicode": "a text is needed",
+    "too_long": "must have {max_length} or fewer entries",
+    "too_short": "must have {min_length} or more entries",
+    "tuple_type": _LIST,
+}
+"""What is said where pydantic finds an error of a type, before what was given."""
 _KINDS = (WRONG, MISSING, UNKNOWN_PART)
 
 
@@ -68,8 +99,8 @@ def located(error: ValidationError, model: type[BaseModel], document: Document) 
 
 
 def _is_tag(step: str | int) -> bool:
-    """Tell names of union branches, which pydantic puts into paths, from keys."""
-    return isinstance(step, str) and step.startswith("<") and step.endswith(">")
+    """Tell what pydantic puts into paths beside keys: names of union branches, and a mark where a key is wrong."""
+    return isinstance(step, str) and (step == "[key]" or (step.startswith("<") and step.endswith(">")))
 
 
 def _text(found: ErrorDetails, loc: KeyPath, model: type[BaseModel], also: Collection[str]) -> str:
@@ -88,11 +119,21 @@ def _text(found: ErrorDetails, loc: KeyPath, model: type[BaseModel], also: Colle
             return f"a mapping 'key: value' is needed; given {_short(found['input'])}"
     if found["type"] in _KINDS:
         return found["msg"]
-    text = re.sub(r"^\w+ should ", "must ", found["msg"])
-    return f"{text}; given {_short(found['input'])}"
+    needed = _NEEDED.get(found["type"], "something else is needed")
+    return f"{needed.format_map(_Readable(context))}; given {_short(found['input'])}"
+
+
+class _Readable(dict[str, Any]):
+    """Numbers as a user reads them."""
+
+    def __getitem__(self, key: str) -> Any:
+        value = super().__getitem__(key)
+        return f"{value:g}" if isinstance(value, float) else value
 
 
 def _missing_text(model: type[BaseModel], loc: KeyPath) -> str:
+    if isinstance(loc[-1], int):
+        return f"this entry is missing; the list needs more than {loc[-1]}"
     owner = model_at(model, loc[:-1])
     field = owner.model_fields.get(str(loc[-1])) if owner else None
     meaning = f": {field.description}" if field is not None and field.description else ""

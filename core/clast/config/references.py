@@ -6,7 +6,7 @@ Checked on the data as written, so that these problems are told together with al
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, product
 from typing import Any
 
 from clast.config.document import Problem
@@ -84,7 +84,9 @@ def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
 def _pair_names(data: Mapping[str, Any]) -> Iterator[Problem]:
     known = [str(name) for name in _section(data, "materials")]
     names = {frozenset(pair): "-".join(pair) for pair in combinations_with_replacement(known, 2)}
-    spelt = {f"{a}-{b}": frozenset((a, b)) for a in known for b in known}
+    spelt: dict[str, set[frozenset[str]]] = {}
+    for a, b in product(known, known):
+        spelt.setdefault(f"{a}-{b}", set()).add(frozenset((a, b)))
     seen: dict[frozenset[str], str] = {}
     for name in _section(_section(data, "contacts"), "pairs"):
         path = ("contacts", "pairs", name)
@@ -93,10 +95,15 @@ def _pair_names(data: Mapping[str, Any]) -> Iterator[Problem]:
         if name not in spelt:
             allowed = [*names.values(), "default"]
             yield Problem(path, f"not a pair of materials, 'first-second'; {suggestion(str(name), allowed)}")
-        elif spelt[name] in seen:
-            yield Problem(path, f"the same pair is given as {seen[spelt[name]]!r}; remove one of them")
+            continue
+        pair, *others = sorted(spelt[name], key=sorted)
+        if others:
+            meant = " or ".join(" and ".join(map(repr, sorted(each))) for each in (pair, *others))
+            yield Problem(path, f"may mean {meant}; write one of these materials without '-'")
+        elif pair in seen:
+            yield Problem(path, f"the same pair is given as {seen[pair]!r}; remove one of them")
         else:
-            seen[spelt[name]] = name
+            seen[pair] = name
 
 
 def _pairs_needed(data: Mapping[str, Any]) -> Iterator[Problem]:

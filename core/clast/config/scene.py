@@ -13,6 +13,7 @@ from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, Validati
 from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
 from clast.config.choice import Chosen, PartOf, default_part, plain_fields
 from clast.config.document import Document, Problem
+from clast.config.names import FolderName, Key
 from clast.config.overrides import apply_overrides
 from clast.config.problems import UNKNOWN_PART, located
 from clast.config.references import check_references
@@ -35,6 +36,9 @@ from clast.plugins.registry import Registry
 NAMED_BY_THE_USER: tuple[KeyPath, ...] = (("materials",), ("walls",), ("contacts", "pairs"))
 """Mappings to which ``--set`` and ``changed`` add nothing but whole entries."""
 
+MOST_MATERIALS = 256
+"""What the results can number with one byte a particle."""
+
 Generators = (
     Annotated[tuple[Annotated[Chosen, PartOf("generator")], ...], Field(min_length=1), Tag("<list>")]
     | Annotated[Chosen, PartOf("generator"), Tag("<one>")]
@@ -53,17 +57,16 @@ class SceneConfig(Params):
     is a single :class:`Chosen` or a tuple of them, as written; :attr:`generators` is always a tuple.
     """
 
-    name: Annotated[
-        str,
-        Field(pattern=r"^[^/\\\x00]+$", description="Name of the scene; by default that of the file"),
-    ] = "scene"
+    name: Annotated[FolderName, Field(description="Name of the scene; by default that of the file")] = "scene"
     description: Annotated[str, Field(description="What the scene shows")] = ""
     plugins: Annotated[tuple[str, ...], Field(description="Python files with plugins, relative to the scene file")] = ()
-    materials: Annotated[dict[str, Material], Field(min_length=1, description="Materials by name")]
+    materials: Annotated[
+        dict[Key, Material], Field(min_length=1, max_length=MOST_MATERIALS, description="Materials by name")
+    ]
     particles: Annotated[Generators, Discriminator(_one_or_list), Field(description="One generator, or a list of them")]
     bonds: Annotated[Bonds | None, Field(description="Solid bridges between particles")] = None
     contacts: Annotated[Contacts | None, Field(description="Contact of particles and walls")] = None
-    walls: Annotated[dict[str, Annotated[WallChoice, WALL]], Field(description="Walls by name")] = Field(
+    walls: Annotated[dict[Key, Annotated[WallChoice, WALL]], Field(description="Walls by name")] = Field(
         default_factory=dict
     )
     body_forces: Annotated[

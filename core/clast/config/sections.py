@@ -163,7 +163,7 @@ class StepRule(Params):
     @model_validator(mode="before")
     @classmethod
     def _factor_of_the_rule(cls, given: Any) -> Any:
-        if isinstance(given, dict) and given.get("rule") in STEP_FACTORS:
+        if isinstance(given, dict) and given.get("rule") in list(STEP_FACTORS):  # what cannot be hashed is no rule
             return {"factor": STEP_FACTORS[given["rule"]]} | given
         return given
 
@@ -213,11 +213,17 @@ def _writers_or_default(given: Any, info: ValidationInfo) -> Any:
     return [name for name in wanted if name in known]
 
 
+MOST_TRACKED = 8000
+"""Numbers that fit beside a table of the results; frames hold everything."""
+
+
 class Tracks(Params):
     """Particles and bonds that are followed closely: their full state at every sample."""
 
-    particles: Annotated[tuple[int, ...], Field(description="Numbers of particles, from 0")] = ()
-    bonds: Annotated[tuple[int, ...], Field(description="Numbers of bonds, from 0")] = ()
+    particles: Annotated[
+        tuple[int, ...], Field(max_length=MOST_TRACKED, description="Numbers of particles, from 0")
+    ] = ()
+    bonds: Annotated[tuple[int, ...], Field(max_length=MOST_TRACKED, description="Numbers of bonds, from 0")] = ()
 
 
 class Output(Params):
