@@ -33,7 +33,7 @@ from clast.errors import RunError
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, build_world, relieve
 from clast.scene.scene import Scene, build_scene
-from clast.scene.start import check_start
+from clast.scene.start import check_start, outside_of
 from clast.soundness.watch import Soundness
 
 BOND_COLUMNS, BOND_ENERGY = 8, 7
@@ -268,9 +268,7 @@ class Simulation:
         if domain is None:
             return
         particles, bonds = self.world.particles, self.world.bonds
-        x = particles.pose[:, X : X + 3]
-        outside = ((x < np.array(domain.lower)) | (x > np.array(domain.upper))).any(axis=1)
-        leaving = outside & (particles.present != 0)
+        leaving = outside_of(domain, particles.pose[:, X : X + 3]) & (particles.present != 0)
         if not leaving.any():
             return
         before = self.ledger().stored if self.plan.ledger else 0.0

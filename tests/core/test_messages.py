@@ -133,9 +133,32 @@ def test_a_value_from_the_command_line_is_told_as_it_was_written() -> None:
 
 
 def test_a_packing_that_is_too_dense_names_the_porosity() -> None:
-    told = said(clast("run", scene((EXPLICIT, GRAIN))), exit_code=1)
-    assert told.startswith("scene.yaml:9:3: particles.porosity: too dense for a random packing: 18 primaries")
+    told = said(clast("run", scene((EXPLICIT, GRAIN), ("porosity: 0.3", "porosity: 0.4"))), exit_code=1)
+    assert told.startswith("scene.yaml:9:3: particles.porosity: too dense for a random packing: 16 primaries")
     assert "Take a larger 'porosity'" in told
+
+
+def test_a_packing_that_can_never_be_is_refused_before_it_is_tried() -> None:
+    impossible = scene((EXPLICIT, GRAIN))
+    for command in (["check"], ["check", "--build"], ["run"]):
+        assert said(clast(*command, impossible)) == (
+            "scene.yaml:9:3: particles.porosity: denser than any random packing: 18 primaries of 0.25 mm (porosity "
+            "0.3) fill 67% of a sphere of 0.75 mm, and at most 66% can be filled. Take a larger 'porosity', or "
+            "'accept_overlap: true' to go on with the best packing found"
+        )
+    assert clast("check", impossible, "--set", "particles.accept_overlap=true").exit_code == 0
+    grain = "{type: spherical_agglomerate, material: glass, diameter: 1, primary_diameter: 0.1, primaries: 700}"
+    told = said(clast("check", impossible, "--set", f"particles={grain}"))
+    assert "particles.primaries: denser than any random packing: 700 primaries" in told
+
+
+def test_a_particle_outside_the_domain_is_told_before_the_run() -> None:
+    domain = "boundaries: {domain: {lower: [-1, -1, -1], upper: [1 mm, 1, 1]}}\ntime:"
+    for command in (["check"], ["run"]):
+        assert said(clast(*command, scene(("time:", domain)))) == (
+            "scene.yaml:9:7: particles.particles.1: particle 1, centred at (0.0011, 0, 0) m, is outside "
+            "boundaries.domain at the start; move it, or make the domain larger"
+        )
 
 
 def test_a_function_of_a_plugin_that_raises_is_told_with_its_line() -> None:

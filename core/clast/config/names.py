@@ -49,8 +49,8 @@ def folder_name(name: str) -> str:
         )
     if not name.isprintable() or "/" in name or "\\" in name:
         raise ValueError(
-            f"{name!r} cannot name the folder of a run; give the scene a 'name' without '/', '\\' and what does not print "
-            "(the folder itself is chosen with -o)"
+            f"{name!r} cannot name the folder of a run; give the scene a 'name' without '/', '\\' and what does "
+            "not print (the folder itself is chosen with -o)"
         )
     length = len(name.encode())
     if length > MOST_BYTES:

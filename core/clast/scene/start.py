@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
+from clast.config.sections import Domain
 from clast.scene.bonding import close_pairs
 from clast.scene.plan import material_pairs, wall_shapes
 from clast.scene.scene import Scene
@@ -15,17 +16,18 @@ COARSEST = 1e-6
 
 
 def check_start(scene: Scene) -> None:
-    """Check materials, tracks, and overlaps at the start.
+    """Check materials, tracks, places and overlaps at the start.
 
     Raises
     ------
     ConfigError
         If two materials that can touch have no settings, walls have no contact law, a track names what is not there,
-        particles are so far from the origin or so near to each other that round-off is a visible share of what moves
-        them, or bodies overlap too much.
+        particles lie outside the domain, are so far from the origin or so near to each other that round-off is a
+        visible share of what moves them, or bodies overlap too much.
     """
     check_contacts(scene)
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
+    _refuse_outsiders(scene)
     _refuse_coarse_positions(scene)
     _refuse_short_bonds(scene)
     if scene.config.contacts is not None:
@@ -62,6 +64,27 @@ def check_tracks(config: SceneConfig, particles: int, bonds: float) -> None:
             if not 0 <= number < count:
                 text = f"there is no number {number}; the number of {key} is {count:.0f}, counted from 0"
                 raise config.problem(("output", "tracks", key, at), text)
+
+
+def _refuse_outsiders(scene: Scene) -> None:
+    domain = scene.config.boundaries.domain
+    if domain is None:
+        return
+    outside = outside_of(domain, scene.position)
+    if outside.any():
+        k = int(np.argmax(outside))
+        x, y, z = scene.position[k]
+        more = f", and so are {outside.sum() - 1} others" if outside.sum() > 1 else ""
+        raise scene.config.problem(
+            scene.origin(k),
+            f"particle {k}, centred at ({x:.4g}, {y:.4g}, {z:.4g}) m, is outside boundaries.domain at the start{more}; "
+            "move it, or make the domain larger",
+        )
+
+
+def outside_of(domain: Domain, position: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which of (n, 3) centres in m lie outside a domain, (n,)."""
+    return np.asarray(((position < np.array(domain.lower)) | (position > np.array(domain.upper))).any(axis=1))
 
 
 def _refuse_coarse_positions(scene: Scene) -> None:

@@ -72,6 +72,8 @@ def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
 
     Raises
     ------
+    ConfigError
+        No random packing is so dense, and ``accept_overlap`` is not set.
     PackingError
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """

@@ -67,6 +67,8 @@ def generate(params: SphericalAgglomerate, folder: Path) -> Packing:
 
     Raises
     ------
+    ConfigError
+        No random packing is so dense, and ``accept_overlap`` is not set.
     PackingError
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """

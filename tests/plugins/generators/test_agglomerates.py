@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from clast.errors import PackingError
+from clast.errors import ConfigError, PackingError
 from clast.parts.generator import Packing
 from clast.scene.bonding import bond_neighbours
 from clast.scene.packing_report import overlaps
@@ -123,9 +123,18 @@ def test_the_centre_only_moves_the_packing() -> None:
 
 
 def test_too_dense_a_packing_is_an_error_that_says_what_was_reached_and_what_to_do() -> None:
-    dense = sphere(diameter="0.75 mm", primary_diameter="0.25 mm", porosity=0.3)
-    with pytest.raises(PackingError, match=r"18 primaries.*porosity 0\.3.*overlap of \d+.*accept_overlap"):
+    dense = sphere(diameter="0.75 mm", primary_diameter="0.25 mm", porosity=0.4)
+    with pytest.raises(PackingError, match=r"16 primaries.*porosity 0\.4.*overlap of \d+.*accept_overlap"):
         spherical_agglomerate.generate(dense, HERE)
+
+
+@pytest.mark.parametrize(("size", "count"), [(2.0, 6), (4.0, 43), (7.0, 227)])
+def test_what_is_refused_as_denser_than_random_could_not_be_packed(size: float, count: int) -> None:
+    params = {"diameter": size, "primary_diameter": 1.0, "porosity": None, "primaries": count}
+    with pytest.raises(ConfigError, match="denser than any random packing"):
+        spherical_agglomerate.generate(sphere(**params), HERE)
+    forced = spherical_agglomerate.generate(sphere(**params, accept_overlap=True), HERE)
+    assert float(forced.report["largest_overlap_per_diameter"]) > 0.01
 
 
 def test_accepted_overlaps_stay_and_are_reported() -> None:

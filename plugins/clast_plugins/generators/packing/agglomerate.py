@@ -10,16 +10,24 @@ from pydantic import Field
 
 from clast.config.quantities import Length, Number, Point
 from clast.engine.chunks import LARGE
-from clast.errors import PackingError
+from clast.errors import ConfigError, KeyPath, PackingError
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.parts.params import Params
-from clast.scene.packing_report import contact_coordination, cut_sphere_surface, cut_sphere_volume, overlaps
+from clast.scene.packing_report import (
+    contact_coordination,
+    cut_sphere_surface,
+    cut_sphere_volume,
+    overlaps,
+    sphere_volume,
+)
 from clast_plugins.generators.packing.container import Floats, around
 from clast_plugins.generators.packing.near_pairs import near_pairs
 from clast_plugins.generators.packing.relax import Relaxed, relax
 
 MOST_PRIMARIES = 10_000_000
 TOLERANCE = 1e-4
+DENSEST = 0.66
+"""Share of a body that spheres packed at random can fill: 0.64 in the bulk, less at a surface, and some luck."""
 # packings with less overlap left than this share of a diameter succeed with some seeds
 NEARLY = 0.01
 
@@ -86,7 +94,14 @@ def number_of_primaries(params: AgglomerateParams, diameter: float) -> int:
 
 
 def predict_agglomerate(params: AgglomerateParams, body: Body, count: int, gaps: Gaps | None) -> Prediction:
-    """Return what packing ``count`` primaries into a body will make, with the bonds between near ones."""
+    """Return what packing ``count`` primaries into a body will make, with the bonds between near ones.
+
+    Raises
+    ------
+    ConfigError
+        No random packing is so dense.
+    """
+    _refuse_impossible(params, body, count)
     d = params.primary_diameter
     if gaps is None:
         bonds: Estimate | None = Estimate(0.0)
@@ -114,15 +129,16 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
 
     Raises
     ------
+    ConfigError
+        No random packing is so dense, and ``accept_overlap`` is not set.
     PackingError
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """
-    d = params.primary_diameter
-    allowed = params.max_overlap if params.max_overlap is not None else TOLERANCE * d
+    _refuse_impossible(params, body, count)
+    d, allowed = params.primary_diameter, _allowed_overlap(params)
     relaxed = relax(count, around(0.5 * body.diameter / d, 0.5 * body.height / d), params.seed, allowed / d)
     if relaxed.overlap > allowed / d and not params.accept_overlap:
-        at = ("primaries",) if params.porosity is None else ("porosity",)
-        raise PackingError(_too_dense(params, body, count, relaxed, allowed), at)
+        raise PackingError(_too_dense(params, body, count, relaxed, allowed), _density_key(params))
     position = np.asarray(params.centre) + d * near_in_number(relaxed.position)
     radius = np.full(count, 0.5 * d)
     packing = Packing(
@@ -136,6 +152,37 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
         relieved=relaxed.overlap > allowed / d,
     )
     return packing, _reached(params, relaxed, position, radius, allowed)
+
+
+def _allowed_overlap(params: AgglomerateParams) -> float:
+    return params.max_overlap if params.max_overlap is not None else TOLERANCE * params.primary_diameter
+
+
+def _density_key(params: AgglomerateParams) -> KeyPath:
+    return ("primaries",) if params.porosity is None else ("porosity",)
+
+
+def _refuse_impossible(params: AgglomerateParams, body: Body, count: int) -> None:
+    """Refuse more primaries than fill their share of a body even where each pair overlaps as far as allowed."""
+    d = max(params.primary_diameter - _allowed_overlap(params), 0.0)
+    filled = count * sphere_volume(d) / cut_sphere_volume(body.diameter, body.height)
+    if count == 1 or params.accept_overlap or filled <= DENSEST:
+        return
+    raise ConfigError(
+        f"denser than any random packing: {_asked(params, count)} fill {filled:.0%} of {body.words}, and at most "
+        f"{DENSEST:.0%} can be filled. {_remedies(params)}",
+        _density_key(params),
+    )
+
+
+def _asked(params: AgglomerateParams, count: int) -> str:
+    asked = "" if params.porosity is None else f" (porosity {params.porosity:g})"
+    return f"{count} primaries of {millimetres(params.primary_diameter)}{asked}"
+
+
+def _remedies(params: AgglomerateParams) -> str:
+    knob = "fewer 'primaries'" if params.porosity is None else "a larger 'porosity'"
+    return f"Take {knob}, or 'accept_overlap: true' to go on with the best packing found"
 
 
 def _reached(
@@ -158,15 +205,12 @@ def _reached(
 
 
 def _too_dense(params: AgglomerateParams, body: Body, count: int, relaxed: Relaxed, allowed: float) -> str:
-    asked = "" if params.porosity is None else f" (porosity {params.porosity:g})"
-    knob = "fewer 'primaries'" if params.porosity is None else "a larger 'porosity'"
     left = relaxed.overlap * params.primary_diameter
     luck = "" if relaxed.overlap > NEARLY else "; little is missing, so another 'seed' may do"
     return (
-        f"too dense for a random packing: {count} primaries of {millimetres(params.primary_diameter)}{asked} "
-        f"in {body.words}; after {relaxed.sweeps} sweeps and {relaxed.shakes} shakes the best packing still "
-        f"has an overlap of {1e6 * left:.4g} um, allowed are {1e6 * allowed:.4g} um. Take {knob}, or "
-        f"'accept_overlap: true' to go on with the best packing found{luck}"
+        f"too dense for a random packing: {_asked(params, count)} in {body.words}; after {relaxed.sweeps} sweeps and "
+        f"{relaxed.shakes} shakes the best packing still has an overlap of {1e6 * left:.4g} um, allowed are "
+        f"{1e6 * allowed:.4g} um. {_remedies(params)}{luck}"
     )
 
 
