@@ -22,9 +22,9 @@ class _Commands(click.Group):
         """Run the command; print what the user can help without a traceback."""
         try:
             return super().invoke(ctx)
-        except KeyboardInterrupt:
-            click.echo("stopped by SIGINT", err=True)
-            ctx.exit(130)
+        except KeyboardInterrupt as stop:
+            click.echo(str(stop) or "stopped by SIGINT", err=True)
+            ctx.exit(getattr(stop, "exit_code", 130))
         except Exception as error:
             told = _told(error)
             if told is None:
@@ -150,8 +150,10 @@ def write(folder: Path, names: tuple[str, ...]) -> None:
 def view(folder: Path) -> None:
     """Open the recording of RUN, the folder of a run."""
     from clast import view_command
+    from clast.results.watch import stoppable
 
-    view_command.view(folder)
+    with stoppable():
+        view_command.view(folder)
 
 
 @main.command()
@@ -186,6 +188,7 @@ def verify(
 ) -> None:
     """Run scenes with known answers, all or each CASE, and compare; exit code 1 where one fails."""
     from clast import verify_command
+    from clast.results.watch import stoppable
     from clast.verification.replacement import Replacement
 
     if listed:
@@ -193,7 +196,9 @@ def verify(
         return
     chosen_parts = {kind: name for kind, name in parts.items() if name is not None}
     replacement = Replacement(chosen_parts, files, overrides)
-    if not verify_command.verify(cases, families, replacement, as_json, page):
+    with stoppable():
+        passed = verify_command.verify(cases, families, replacement, as_json, page)
+    if not passed:
         ctx.exit(1)
 
 
@@ -222,6 +227,7 @@ def bench(
     from clast import bench_command
     from clast.bench.section import Effort
     from clast.bench.suite import chosen
+    from clast.results.watch import stoppable
 
     sections = chosen([name.strip() for names in only for name in names.split(",")])
     if listed:
@@ -233,5 +239,7 @@ def bench(
         asked = ["clast bench", *([f"--{effort}"] if effort else []), *([f"--peer {peer}"] if peer != "none" else [])]
         asked += [f"--only {','.join(only)}"] if only else []
         command = " ".join([*asked, *(f"--plugin {file}" for file in files)])
-        if not bench_command.bench(sections, Effort(effort or "usual"), peer, files, command, output):
+        with stoppable():
+            complete = bench_command.bench(sections, Effort(effort or "usual"), peer, files, command, output)
+        if not complete:
             ctx.exit(1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -21,7 +20,7 @@ from clast.results.frames import Frames
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import open_run
 from clast.results.samples import Samples
-from clast.results.watch import GO_ON, RunInterruptedError, Watch
+from clast.results.watch import GO_ON, RunInterruptedError, StopError, Watch, stoppable
 from clast.results.whole_file import whole_file
 from clast.run_folder import run_folder
 from clast.simulation import Simulation
@@ -89,7 +88,7 @@ def run_scene(
     listener, folder = listener or Listener(), Path(folder)
     session = None
     try:
-        with run_folder(folder, resume) as goes_on:
+        with stoppable(), run_folder(folder, resume) as goes_on:
             listener.building()
             simulation = Simulation(config, threads)
             if simulation.kernel.fresh:
@@ -97,9 +96,9 @@ def run_scene(
             session = _Session(simulation, folder, goes_on, listener)
             session.advance()
             return session.finish()
-    except KeyboardInterrupt:  # before or after the step loop, which handles signals itself
+    except StopError as stop:  # before or after the step loop, which handles signals itself
         advice = GO_ON if session is not None else "nothing was written yet"
-        raise RunInterruptedError(signal.SIGINT, advice) from None
+        raise RunInterruptedError(stop.number, advice) from None
 
 
 class _Session:

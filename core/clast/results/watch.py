@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from clast.errors import RunError
 
@@ -25,6 +25,26 @@ class RunInterruptedError(RunError):
     def __init__(self, number: int, advice: str = GO_ON) -> None:
         super().__init__(f"stopped by {signal.Signals(number).name}; {advice}")
         self.exit_code = 128 + number
+
+
+class StopError(KeyboardInterrupt):
+    """A signal asked to stop: what Ctrl-C raises in Python, for SIGTERM too."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(f"stopped by {signal.Signals(number).name}")
+        self.exit_code = 128 + number
+        self.number = number
+
+
+def _raise_stop(number: int, frame: FrameType | None) -> NoReturn:
+    raise StopError(number)
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let SIGINT and SIGTERM raise :class:`StopError` meanwhile, so that everything opened is closed on the way out."""
+    with signals_to(_raise_stop):
+        yield
 
 
 @contextmanager

@@ -1,0 +1,41 @@
+"""A program that is stopped before its run has begun ends with one line and leaves nothing behind."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.scenes import COLLISION, write
+
+AT_AN_IMPORT = """
+import os, sys
+import clast.__main__
+
+module, number = sys.argv.pop(1), int(sys.argv.pop(1))
+
+class Killer:
+    def find_spec(self, name, path, target=None):
+        if name == module:
+            sys.meta_path.remove(self)
+            os.kill(os.getpid(), number)
+
+sys.meta_path.insert(0, Killer())
+clast.__main__.main()
+"""
+"""Sends a signal to itself when it is about to import a module."""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("module", ["click", "pydantic", "numba", "h5py"])
+def test_a_stop_while_something_is_imported_is_one_line(tmp_path: Path, module: str, number: int) -> None:
+    scene = write(tmp_path, COLLISION)
+    command = [sys.executable, "-c", AT_AN_IMPORT, module, str(int(number)), "run", str(scene), "-o", "runs/one"]
+    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert told.returncode == 128 + number
+    assert told.stderr.startswith(f"stopped by {signal.Signals(number).name}")
+    assert told.stderr.count("\n") == 1
+    assert not list((tmp_path / "runs").glob("*"))
