@@ -59,7 +59,30 @@ def test_tracks_come_as_csv_with_one_row_a_sample(collision: Path, tmp_path: Pat
 def test_the_curves_come_in_the_promised_order(crush: Path, tmp_path: Path) -> None:
     run_scene(load(crush).changed({"time.end.strain": 0.02}), tmp_path / "run")
     header = (tmp_path / "run" / "curves.csv").read_text().splitlines()[0]
-    assert header == "time_s,displacement_m,strain,stress_Pa,force_upper_N,force_lower_N,bonds_intact,bonds_broken"
+    kinds = (("force", "N"), ("moment", "Nm"))
+    plates = [f"{kind}_{w}_{c}_{unit}" for w in ("upper", "lower") for kind, unit in kinds for c in "xyz"]
+    strain = ["time_s", "displacement_m", "strain", "stress_Pa", "force_upper_N", "force_lower_N"]
+    assert header.split(",") == [*strain, *plates, "bonds_intact", "bonds_broken"]
+
+
+@pytest.mark.parametrize("force", ["instantaneous", "mean"])
+def test_the_moment_on_a_wall_is_that_of_its_force_about_the_walls_point(
+    collision: Path, tmp_path: Path, force: str
+) -> None:
+    floor = {"type": "plane", "material": "glass", "point": [0, 0, "-1.001 mm"], "normal": [0, 0, 1]}
+    falling = {"position": ["2 mm", "3 mm", 0], "velocity": [0, 0, "-0.1 m/s"], "radius": "1 mm"}
+    away = {"position": ["-20 mm", 0, "20 mm"], "radius": "1 mm"}
+    scene = load(collision).changed(
+        {"walls": {"floor": floor}, "particles.particles": [falling, away], "output.force": force}
+    )
+    run_scene(scene, tmp_path / "run")
+    with open_run(tmp_path / "run") as run:
+        push = run.curves["force_floor_z_N"]
+        moment = [run.curves[f"moment_floor_{c}_Nm"] for c in "xyz"]
+    assert push.min() < -0.1
+    assert moment[0] == pytest.approx(3e-3 * push, rel=1e-12, abs=1e-15)
+    assert moment[1] == pytest.approx(-2e-3 * push, rel=1e-12, abs=1e-15)
+    assert (moment[2] == 0.0).all()
 
 
 def test_a_resolved_config_runs_the_same_scene_again(crush: Path, tmp_path: Path) -> None:

@@ -33,7 +33,8 @@ FORCE_COLOURS = ((67, 147, 195), (214, 96, 77), (90, 174, 97), (153, 112, 171), 
 def shown_series(run: Run) -> dict[str, Series]:
     """Return the columns of this run's curves that are recorded, and how."""
     series = {column: entry for column, entry in SERIES.items() if column in run.curves}
-    forces = [column for column in run.curves if column.startswith("force_")]
+    plates = [f"force_{plate}_N" for plate in ("upper", "lower") if f"force_{plate}_N" in run.curves]
+    forces = plates or [column for column in run.curves if column.startswith("force_")]
     for k, column in enumerate(forces):
         label = column.removesuffix("_N").replace("_", " ") + " [N]"
         entity = f"curves/{column.removesuffix('_N')}"

@@ -89,6 +89,7 @@ class Walls(NamedTuple):
     force: Floats
     moment: Floats
     force_sum: Floats
+    moment_sum: Floats
     reference: Floats
 
 

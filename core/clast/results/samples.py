@@ -56,13 +56,14 @@ class Samples:
             self.store.append("tracks/particles", self._particle_row(simulation))
         if len(self.bonds):
             self.store.append("tracks/bonds", self._bond_row(simulation))
-        simulation.world.walls.force_sum[:] = 0.0
+        simulation.world.walls.force_sum[:] = simulation.world.walls.moment_sum[:] = 0.0
         self.previous_step = simulation.step
 
     def _row(self, simulation: Simulation) -> dict[str, float]:
         walls, gauge = simulation.world.walls, simulation.gauge
         steps = simulation.step - self.previous_step
-        force = walls.force_sum / steps if self.mean and steps else walls.force
+        mean = self.mean and steps
+        force, moment = (walls.force_sum / steps, walls.moment_sum / steps) if mean else (walls.force, walls.moment)
         row = {"time_s": simulation.time}
         if gauge.axis is not None:
             upper, lower = gauge.forces(force)
@@ -73,8 +74,9 @@ class Samples:
                 "force_upper_N": upper,
                 "force_lower_N": lower,
             }
-        else:
-            row |= {f"force_{w}_{c}_N": force[k, a] for k, w in enumerate(gauge.names) for a, c in enumerate("xyz")}
+        for k, wall in enumerate(gauge.names):
+            row |= {f"force_{wall}_{c}_N": force[k, a] for a, c in enumerate("xyz")}
+            row |= {f"moment_{wall}_{c}_Nm": moment[k, a] for a, c in enumerate("xyz")}
         row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
         return row | (energy.columns(simulation.ledger()) if simulation.plan.ledger else {})
 

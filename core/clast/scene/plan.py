@@ -270,7 +270,7 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
     shapes = [numbers(shape) for _, shape in wall_shapes(scene)]
     courses = [numbers(w.motion.part.course(w.motion.params)) if w.motion else [] for w in chosen]
     centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
-    still = [np.zeros((len(chosen), 3)) for _ in range(6)]
+    still = [np.zeros((len(chosen), 3)) for _ in range(7)]
     return Walls(
         np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
         _table(shapes),

@@ -224,7 +224,8 @@ def clear_wall_forces(walls: Walls) -> None:
 
 @routine
 def sum_wall_forces(walls: Walls) -> None:
-    """Add the forces of this step to the sum from which means are taken."""
+    """Add the forces and moments of this step to the sums from which means are taken."""
     for w in range(len(walls.shape_kind)):
         for c in range(3):
             walls.force_sum[w, c] += walls.force[w, c]
+            walls.moment_sum[w, c] += walls.moment[w, c]
