@@ -152,6 +152,23 @@ def test_a_packing_that_can_never_be_is_refused_before_it_is_tried() -> None:
     assert "particles.primaries: denser than any random packing: 700 primaries" in told
 
 
+@pytest.mark.parametrize(
+    "change",
+    ["materials.glass.density=1e308", "materials.glass.density=1e-300", "particles.particles.0.radius=1e200"],
+)
+def test_a_mass_beyond_all_numbers_is_told_once(change: str) -> None:
+    for command in (["check"], ["run"]):
+        told = said(clast(*command, scene(), "--set", change))
+        assert told.startswith("scene.yaml:8:7: particles.particles.0: particle 0 has a mass of ")
+        assert told.endswith("can be computed with; check the units of radius and density, and time.mass_scaling")
+
+
+@pytest.mark.parametrize("length", ["1e-300", "1e300"])
+def test_a_direction_of_absurd_length_is_told(length: str) -> None:
+    told = said(clast("check", scene(("normal: [0, 0, 1]", f"normal: [0, 0, {length}]"))))
+    assert "walls.floor.normal: the length of" in told
+
+
 def test_a_particle_outside_the_domain_is_told_before_the_run() -> None:
     domain = "boundaries: {domain: {lower: [-1, -1, -1], upper: [1 mm, 1, 1]}}\ntime:"
     for command in (["check"], ["run"]):

@@ -10,7 +10,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
 from clast.config.choice import KIND_KEY, Chosen, choose, plain_fields, registry_of
-from clast.config.problems import explain, problem, refuse
+from clast.config.problems import explain, problem, refuse, short
 from clast.config.sections import NeighbourSettings, WallSettings
 from clast.parts.params import Params
 
@@ -97,7 +97,7 @@ class PartBeside:
         if isinstance(given, str):
             return {"type": given}
         if not isinstance(given, Mapping):
-            raise refuse([problem((), f"a mapping with 'type' is needed; given {given!r}", given)])
+            raise refuse([problem((), f"a mapping with 'type' is needed; given {short(given)}", given)])
         return given if self.default is None else {"type": self.default, **given}
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from clast.config.problems import MISSING, UNKNOWN_PART, explain, problem, refuse
+from clast.config.problems import MISSING, UNKNOWN_PART, explain, problem, refuse, short
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.registry import Registry, Source
@@ -88,7 +88,7 @@ def _name_and_rest(kind: str, given: Any, registry: Registry) -> tuple[str, dict
         return given, {}
     if not isinstance(given, Mapping):
         needed = f"the name of a {kind.replace('_', ' ')} is needed, or a mapping with 'type'; {known}"
-        raise refuse([problem((), f"{needed}; given {given!r}", given)])
+        raise refuse([problem((), f"{needed}; given {short(given)}", given)])
     if "type" not in given:
         text = f"this key is missing: which {kind.replace('_', ' ')}; {known}"
         raise refuse([problem(("type",), text, kind=MISSING)])

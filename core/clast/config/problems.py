@@ -116,11 +116,11 @@ def _text(found: ErrorDetails, loc: KeyPath, model: type[BaseModel], also: Colle
         case "literal_error" | "enum":
             return _choice_text(found["input"], str(context["expected"]))
         case "model_type" | "dict_type" | "model_attributes_type":
-            return f"a mapping 'key: value' is needed; given {_short(found['input'])}"
+            return f"a mapping 'key: value' is needed; given {short(found['input'])}"
     if found["type"] in _KINDS:
         return found["msg"]
     needed = _NEEDED.get(found["type"], "something else is needed")
-    return f"{needed.format_map(_Readable(context))}; given {_short(found['input'])}"
+    return f"{needed.format_map(_Readable(context))}; given {short(found['input'])}"
 
 
 class _Readable(dict[str, Any]):
@@ -142,11 +142,12 @@ def _missing_text(model: type[BaseModel], loc: KeyPath) -> str:
 
 def _choice_text(given: Any, expected: str) -> str:
     near = nearest_name(str(given), re.findall(r"'([^']*)'", expected))
-    return f"{_short(given)} is not allowed; " + (f"did you mean {near!r}?" if near else f"write {expected}")
+    return f"{short(given)} is not allowed; " + (f"did you mean {near!r}?" if near else f"write {expected}")
 
 
-def _short(given: Any) -> str:
-    text = repr(given)
+def short(given: Any) -> str:
+    """Return what was given as a message shows it."""
+    text = "nothing" if given is None else repr(given)
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 

@@ -150,6 +150,8 @@ def _three_parts(given: Any) -> Any:
 def _not_zero(given: tuple[float, float, float]) -> tuple[float, float, float]:
     if given == (0.0, 0.0, 0.0):
         raise ValueError("[0, 0, 0] has no direction; at least one component must differ from zero")
+    if not 1e-100 < math.hypot(*given) < 1e100:
+        raise ValueError(f"the length of {list(given)} is beyond what can be computed with; only the direction counts")
     return given
 
 

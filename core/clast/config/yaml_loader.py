@@ -97,7 +97,7 @@ def parse_document(text: str, name: str = "scene", folder: Path = Path()) -> Doc
         if not isinstance(node, yaml.MappingNode):
             line, column = node.start_mark.line + 1, node.start_mark.column + 1
             raise ConfigError(f"{name}:{line}:{column}: a mapping 'key: value' is needed at the top level")
-        _check_keys(node, name)
+        _check_nodes(node, name, loader)
         return Document(name, folder, loader.construct_document(node), node)
     except yaml.YAMLError as error:
         raise ConfigError(_explain(error, text, name)) from None
@@ -112,7 +112,15 @@ def parse_value(text: str) -> Any:
     (1000000.0, 'on', [0, 0, '1 mm'])
     """
     _refuse_deep_nesting(text, "value")
-    return yaml.load(text, Loader=_Loader)  # a SafeLoader
+    loader = _Loader(text)
+    try:
+        node = loader.get_single_node()
+        if node is None:
+            return None
+        _check_nodes(node, "value", loader)
+        return loader.construct_document(node)
+    finally:
+        loader.dispose()
 
 
 def dump_yaml(data: Any) -> str:
@@ -177,15 +185,19 @@ def _explain(error: yaml.YAMLError, text: str, name: str) -> str:
     return f"{where}: not valid YAML: {error.problem}{context}"
 
 
-def _check_keys(root: yaml.Node, name: str) -> None:
-    """Refuse keys that are said twice or are not texts, and aliases that hold themselves."""
+def _check_nodes(root: yaml.Node, name: str, loader: yaml.SafeLoader) -> None:
+    """Refuse keys that are said twice or are not texts, tags of YAML, and aliases that hold themselves."""
     done: set[int] = set()
     open_nodes: set[int] = set()
 
     def visit(node: yaml.Node) -> None:
         if id(node) in open_nodes:
             raise ConfigError(f"{_where(node, name)}: an alias that holds itself")
-        if id(node) in done or isinstance(node, yaml.ScalarNode):
+        if id(node) in done:
+            return
+        if node.tag not in (_PLAIN[type(node)], _meant(node, loader)):
+            raise ConfigError(f"{_where(node, name)}: the tag {node.tag!r} is not known here; write the value alone")
+        if isinstance(node, yaml.ScalarNode):
             return
         open_nodes.add(id(node))
         if isinstance(node, yaml.MappingNode):
@@ -196,6 +208,18 @@ def _check_keys(root: yaml.Node, name: str) -> None:
         done.add(id(node))
 
     visit(root)
+
+
+_PLAIN = {
+    yaml.ScalarNode: "tag:yaml.org,2002:str",
+    yaml.SequenceNode: "tag:yaml.org,2002:seq",
+    yaml.MappingNode: "tag:yaml.org,2002:map",
+}
+
+
+def _meant(node: yaml.Node, loader: yaml.SafeLoader) -> str:
+    """Return the tag that a value has by its looks."""
+    return str(loader.resolve(type(node), node.value, (True, False)))  # type: ignore[no-untyped-call]
 
 
 def _check_mapping(node: yaml.MappingNode, name: str) -> None:

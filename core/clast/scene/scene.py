@@ -16,6 +16,8 @@ from clast.parts.bond_model import BondGeometry
 from clast.parts.generator import BondList, Packing
 from clast.plugins.nearest import suggestion
 
+EXTREME = 1e-100
+"""Smallest mass in kg and inertia in kg m² that is computed with; the largest are its inverse."""
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
@@ -133,7 +135,7 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
     Raises
     ------
     ConfigError
-        A particle is of a material that the config does not have.
+        A particle is of a material that the config does not have, or its mass is beyond all numbers.
     """
     packings = [packing for _, packing in made]
     origins = _origins(config, made)
@@ -143,13 +145,15 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
     position = np.concatenate([packing.position for packing in packings])
     grain = _joined_grains(packings)
     bonds = _bonds(config, packings, position, radius, material, grain)
-    return Scene(
+    with np.errstate(over="ignore", under="ignore"):
+        mass = density * config.time.mass_scaling * 4.0 / 3.0 * np.pi * radius**3
+    scene = Scene(
         config=config,
         position=position,
         velocity=np.concatenate([packing.velocity for packing in packings]),
         spin=np.concatenate([packing.spin for packing in packings]),
         radius=radius,
-        mass=density * config.time.mass_scaling * 4.0 / 3.0 * np.pi * radius**3,
+        mass=mass,
         material=material,
         grain=grain,
         prescribed=np.concatenate([packing.prescribed for packing in packings]),
@@ -162,6 +166,22 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
         origins=origins,
         report={f"{k + 1}. {chosen.name}": packing.report for k, (chosen, packing) in enumerate(made)},
     )
+    _refuse_extreme_masses(scene)
+    return scene
+
+
+def _refuse_extreme_masses(scene: Scene) -> None:
+    """Refuse masses and inertias with which nothing can be computed."""
+    with np.errstate(over="ignore", under="ignore"):
+        inertia = 0.4 * scene.mass * scene.radius**2
+    wrong = ~((np.minimum(scene.mass, inertia) > EXTREME) & (np.maximum(scene.mass, inertia) < 1.0 / EXTREME))
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        raise scene.config.problem(
+            scene.origin(k),
+            f"particle {k} has a mass of {scene.mass[k]:.3g} kg and a radius of {scene.radius[k]:.3g} m, beyond what "
+            "can be computed with; check the units of radius and density, and time.mass_scaling",
+        )
 
 
 def _origins(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> tuple[Origin, ...]:

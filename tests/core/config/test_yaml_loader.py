@@ -59,7 +59,7 @@ def test_keys_that_look_like_truth_values_are_words():
         ("true: a\n", "the key 'true' is not a text"),
         ("[a]: b\n", "is not a text"),
         ("a: &x [*x]\n", "an alias that holds itself"),
-        ("a: !!python/object/apply:os.getcwd []\n", "s.yaml:1:4: not valid YAML"),
+        ("a: !!python/object/apply:os.getcwd []\n", "s.yaml:1:4: the tag"),
         ("a: 1\n---\nb: 2\n", "not valid YAML"),
         ("a: \x07\n", "s.yaml:1: the character '\\x07' is not allowed"),
         ("a: " + "[" * 500 + "]" * 500, "nested more than 100 levels deep"),
@@ -117,3 +117,12 @@ _PLAIN = st.recursive(
 @given(st.dictionaries(st.sampled_from(["key", "no", "010"]), _PLAIN, min_size=1))
 def test_what_is_dumped_is_read_back(data):
     assert parse_document(dump_yaml(data)).data == data
+
+
+@pytest.mark.parametrize("value", ["!!float abc", "!!int abc", "!!set {a}", "!!binary '@@'", "!mine 3"])
+def test_tags_are_refused_with_their_place(value):
+    with pytest.raises(ConfigError, match=r"scene:1:4: the tag '\S+' is not known here; write the value alone"):
+        parse_document(f"a: {value}")
+    with pytest.raises(ConfigError, match="is not known here; write the value alone"):
+        parse_value(value)
+    assert parse_document("a: !!str 3\nb: '4'\nc: !!int 5").data == {"a": "3", "b": "4", "c": 5}

@@ -156,6 +156,12 @@ def test_damaged_summary_is_named(folder: Path) -> None:
         open_run(folder)
 
 
+def test_damaged_config_is_named_in_one_line(folder: Path) -> None:
+    (folder / "config.yaml").write_text("{", encoding="utf-8")
+    with pytest.raises(RunError, match=r"config\.yaml: cannot be read \(ParserError: .*\)$"):
+        open_run(folder)
+
+
 def test_damaged_reference_is_named(folder: Path) -> None:
     (folder / "config.yaml").write_text("reference: [{label: x}]", encoding="utf-8")
     with pytest.raises(RunError, match=r"config\.yaml: reference"):
