@@ -10,6 +10,8 @@ from clast.config.choice import Chosen, PartOf, default_part, registry_of
 from clast.config.quantities import Density, Length, Number, Point, Stress, Time, Velocity
 from clast.parts.params import Params
 
+BEYOND = 1e100
+"""What no length in m or time in s of a scene reaches; its square can still be computed."""
 DEFAULT_WRITERS = ("recording", "vtk", "figure", "picture")
 LEDGER_WRITER = "energy"
 
@@ -136,7 +138,7 @@ class NeighbourSettings(Params):
     """What every neighbour search has beside its own parameters."""
 
     skin: Annotated[
-        Annotated[Literal["auto"], Tag("<auto>")] | Annotated[Length, Field(gt=0), Tag("<length>")],
+        Annotated[Literal["auto"], Tag("<auto>")] | Annotated[Length, Field(gt=0, lt=BEYOND), Tag("<length>")],
         Discriminator(lambda given: "<auto>" if given == "auto" else "<length>"),
         Field(description="Width by which lists reach beyond contact; 'auto' chooses it"),
     ] = "auto"
@@ -198,7 +200,7 @@ class TimeSettings(Params):
     ] = StepRule(rule="spectral")
     mass_scaling: Annotated[Number, Field(ge=1, description="Factor on all masses")] = 1.0
     selective_mass_scaling: Annotated[
-        Annotated[Time, Field(gt=0)] | None,
+        Annotated[Time, Field(gt=0, lt=BEYOND)] | None,
         Field(description="Stable step for which particles that do not allow it are made heavier, and only those"),
     ] = None
     end: Annotated[End, Field(description="When the run ends")]

@@ -68,6 +68,8 @@ def test_the_neighbour_search_is_chosen_by_type_with_the_skin_beside_it(load):
     said = _said(load, overrides=["neighbours={type: cells, skin: 0}"])
     assert "neighbours.type: no neighbour search is named 'cells'; known are linked_cells" in said
     assert "neighbours.skin: must be greater than 0" in said
+    assert "neighbours.skin: must be less than 1e+100" in _said(load, overrides=["neighbours.skin=1e300"])
+    assert "must be less than 1e+100" in _said(load, overrides=["time.selective_mass_scaling=1e300 s"])
 
 
 def test_the_checkpoint_interval_may_be_minutes_or_hours(load):
