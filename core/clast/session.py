@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from clast import writing
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import RunError
@@ -24,6 +23,7 @@ from clast.results.samples import Samples
 from clast.results.store import Store
 from clast.results.watch import GO_ON, RunInterruptedError, Watch
 from clast.simulation import Simulation
+from clast.writing import launch
 
 
 @dataclass(frozen=True)
@@ -204,5 +204,5 @@ class _Session:
             told |= summary.mass_scaling_results(self.simulation, run)
             written["summary"] = Written(summary.write(self.folder, told))
         writers = [chosen.name for chosen in self.simulation.config.output.writers]
-        written |= writing.write(self.folder, writers, self.listener.writing)
+        written |= launch.write(self.folder, writers, self.listener.writing)
         return Outcome(self.folder, told, {"results": Written(self.store.path), **written})

@@ -30,9 +30,10 @@ from clast.engine.tables import intact, slot_view
 from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
+from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, build_world, relieve
-from clast.scene.scene import Scene, build_scene
+from clast.scene.scene import Scene
 from clast.scene.start import check_start
 from clast.soundness.watch import Soundness
 

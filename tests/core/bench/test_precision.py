@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clast import bench_command
 from clast.bench import store
 from clast.bench.machine import Machine
 from clast.bench.precision.claim import cpu_for, gain, rounded_up, sentence
@@ -17,6 +16,7 @@ from clast.bench.precision.theory import fitted_order, oscillator_order
 from clast.bench.section import Effort, Task
 from clast.bench.store import Record
 from clast.bench.suite import chosen
+from clast.commands import bench as bench_command
 from clast.errors import ConfigError
 from clast.plugins.discovery import discover
 

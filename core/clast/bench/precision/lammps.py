@@ -18,7 +18,7 @@ from clast.bench.scenes import NUMBERS, Body
 from clast.bench.section import Effort, Task
 from clast.bench.throughput import PEER
 from clast.engine.state import Floats
-from clast.scene.scene import build_scene
+from clast.scene.build import build_scene
 
 ORDER = 2.0
 FINER = 4

@@ -14,10 +14,11 @@ from clast.engine.state import World
 from clast.engine.tables import empty_pairs
 from clast.engine.time_step import Limits, choose_step, limits, ruling
 from clast.parts.generator import BondList
+from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
 from clast.scene.plan import blueprint, build_world
-from clast.scene.scene import Scene, build_scene
+from clast.scene.scene import Scene
 from clast.scene.start import check_start
 from clast.simulation import choose_skin
 
