@@ -32,9 +32,10 @@ from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
-from clast.scene.plan import blueprint, build_world, relieve
+from clast.scene.plan import blueprint
 from clast.scene.scene import Scene
 from clast.scene.start import check_start
+from clast.scene.world import build_world, relieve
 from clast.soundness.watch import Soundness
 
 BOND_COLUMNS, BOND_ENERGY = 8, 7

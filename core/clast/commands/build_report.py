@@ -17,9 +17,10 @@ from clast.parts.generator import BondList
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
-from clast.scene.plan import blueprint, build_world
+from clast.scene.plan import blueprint
 from clast.scene.scene import Scene
 from clast.scene.start import check_start
+from clast.scene.world import build_world
 from clast.simulation import choose_skin
 
 Rows = list[tuple[str, str]]

@@ -45,6 +45,8 @@ class ContactPlan:
         Whether bonded particles touch too, and whether there are two particles at all.
     one_material : bool
         Whether all particles are of one material, so that one row of constants serves all their contacts.
+    one_size : bool
+        Whether all particles have one radius and one mass, so that they are no matter of single contacts.
     rests : bool
         Whether some pairs overlap at the start without pushing.
     """
@@ -55,6 +57,7 @@ class ContactPlan:
     bonded_pairs: bool = True
     between_particles: bool = True
     one_material: bool = True
+    one_size: bool = True
     rests: bool = False
 
 

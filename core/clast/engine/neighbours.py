@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.engine.cache_lines import on_lines
 from clast.engine.chunks import shared_out
 from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, V, X
 from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
@@ -54,15 +55,17 @@ def find_pairs(
     kept = np.nonzero(old.sides & FIRST)[0]
     before, now = key(old.first[kept], old.second[kept]), key(found[:, 0], found[:, 1])
     touching, history, rest = carried(before, now, old.touching[kept], old.history[kept], old.rest[kept])
-    return Pairs(
-        found[:, 0].astype(np.uint32),
-        found[:, 1].astype(np.uint32),
-        sides,
-        bond_places(bonds, found, begin),
-        rest,
-        touching,
-        history,
-        begin,
+    return on_lines(
+        Pairs(
+            found[:, 0].astype(np.uint32),
+            found[:, 1].astype(np.uint32),
+            sides,
+            bond_places(bonds, found, begin),
+            rest,
+            touching,
+            history,
+            begin,
+        )
     )
 
 

@@ -73,6 +73,7 @@ def _flags(plan: Blueprint) -> str:
         "CONTACTS": contacts is not None and contacts.between_particles,
         "BONDED_PAIRS_TOUCH": bonds is None or (contacts is not None and contacts.bonded_pairs),
         "ONE_MATERIAL": contacts is None or contacts.one_material,
+        "ONE_SIZE": contacts is None or contacts.one_size,
         "RESTS": contacts is not None and contacts.rests,
         "WALLS": bool(plan.walls),
         "BODY_FORCES": bool(plan.body_forces),

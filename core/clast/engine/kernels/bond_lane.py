@@ -20,12 +20,10 @@ from .layout import (
     BOND_WI,
     BOND_WJ,
     DAMPED,
-    FIRST,
     FLOWED,
     INDEX,
     LANES,
     OVERLOAD,
-    SECOND,
     F,
     M,
     Q,
@@ -33,13 +31,13 @@ from .layout import (
     W,
     X,
 )
+from .rows import add_to_row, own_ends, take_from_row
 from .slots import (
     BOND_DAMPING,
     BOND_EVENTS,
     BOND_FLOW,
     BOND_ORIENTATION,
     BOND_VELOCITY,
-    CHUNKED,
     FADE,
     LEDGER,
     bond_end_loads,
@@ -147,15 +145,12 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
 def scatter(particles: Particles, i: int, j: int, sides: int, scratch: Floats, lane: int, share: float) -> None:
     """Add a lane's loads to those of its ends that belong to the chunk."""
     load = particles.load
-    for c in range(3):
-        force = scratch[(BOND_F + c) * LANES + lane]
-        moment_i = scratch[(BOND_MI + c) * LANES + lane]
-        moment_j = scratch[(BOND_MJ + c) * LANES + lane]
-        if FADE:
-            force, moment_i, moment_j = share * force, share * moment_i, share * moment_j
-        if not CHUNKED or sides & FIRST:
-            load[i, F + c] -= force
-            load[i, M + c] += moment_i
-        if not CHUNKED or sides & SECOND:
-            load[j, F + c] += force
-            load[j, M + c] += moment_j
+    force = vector(scratch, BOND_F, lane)
+    moment_i, moment_j = vector(scratch, BOND_MI, lane), vector(scratch, BOND_MJ, lane)
+    if FADE:
+        force, moment_i, moment_j = scale(share, force), scale(share, moment_i), scale(share, moment_j)
+    own_i, own_j = own_ends(sides)
+    take_from_row(load, i, F, force, own_i)
+    add_to_row(load, i, M, moment_i, own_i)
+    add_to_row(load, j, F, force, own_j)
+    add_to_row(load, j, M, moment_j, own_j)

@@ -11,7 +11,8 @@ from clast.parts.contact_law import Touch
 
 from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
-from .contact_sweep import HISTORY_BASE, gather, joined, meet, read_touch
+from .contact_lane import HISTORY_BASE, gather, read_touch
+from .contact_sweep import joined, meet
 from .lanes import row, vector
 from .layout import BOND_SCRATCH, FIRST, INTACT, LANES, MATERIAL, NORMAL, RADIUS, X
 from .slots import (
@@ -101,12 +102,12 @@ def energy_of(touch: Touch, constants, history, time: float) -> float:  # type: 
 def pair_energy(world: World, pairs: Pairs, k: int, scratch: Floats, time: float) -> float:
     """Return the elastic energy of pair k, 0 where it does not touch."""
     particles, numbers = world.particles, world.numbers
-    if not pairs.sides[k] & FIRST or not meet(particles, pairs, k, scratch, 0):
+    if not pairs.sides[k] & FIRST or not meet(particles, pairs, k, numbers, scratch, 0):
         return 0.0
     if not BONDED_PAIRS_TOUCH and joined(pairs, world.bonds, k):
         return 0.0
     gather(particles, pairs, k, numbers, scratch, 0)
-    touch, _, _, _ = read_touch(scratch, 0, time, numbers.lever)
+    touch, _, _, _ = read_touch(scratch, 0, numbers, time)
     history = read_history(scratch, HISTORY_BASE, 0)
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, touch.normal) + dot(touch.spin_j, touch.normal)) * time

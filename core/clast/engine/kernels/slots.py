@@ -22,6 +22,7 @@ FADE = False
 CONTACTS = False
 BONDED_PAIRS_TOUCH = True
 ONE_MATERIAL = True
+ONE_SIZE = True
 RESTS = False
 WALLS = False
 BODY_FORCES = False
