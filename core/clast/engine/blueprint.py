@@ -96,14 +96,15 @@ class Blueprint:
 
     @property
     def bond_velocity(self) -> bool:
-        """Whether bonds see velocities."""
-        return self.bonds is not None and (self.bonds.kinematics.needs_velocity or self.bonds.damping)
+        """Whether the kinematics of bonds sums up how the ends move."""
+        return self.bonds is not None and self.bonds.kinematics.needs_velocity
 
     @property
     def velocity_forces(self) -> bool:
         """Whether any force depends on velocities."""
-        damped = self.contacts is not None and (self.contacts.features.damping or self.friction)
-        return damped or self.bond_velocity or bool(self.body_forces)
+        damped_contacts = self.contacts is not None and (self.contacts.features.damping or self.friction)
+        damped_bonds = self.bonds is not None and self.bonds.damping
+        return damped_contacts or damped_bonds or bool(self.body_forces)
 
     @property
     def history(self) -> type | None:

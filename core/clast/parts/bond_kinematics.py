@@ -24,9 +24,10 @@ class BondMotion(NamedTuple):
     q_i, q_j : quaternion
         Orientations, 1 at the start; given when the kinematics ``needs_orientation``.
     v : vector
-        Velocity of j minus velocity of i in m/s; given when it ``needs_velocity``.
+        Velocity in m/s with which j moved against i since the forces before, dt ago: d was ``d − v dt`` then. Given
+        when it ``needs_velocity``.
     w_i, w_j : vector
-        Angular velocities in rad/s; given when it ``needs_velocity``.
+        Angular velocities in rad/s with which the ends turned since then; given when it ``needs_velocity``.
     """
 
     d: Vec

@@ -90,11 +90,14 @@ def test_impacts_are_over_at_the_end():
     assert relative(early, late) < 2e-3
 
 
-def test_the_bonded_pair_converges_quadratically():
-    way = {"integrator": "midstep", "bond_kinematics": "total"}
-    fine = observed(PAIR, task(), way, 10240)
-    coarse, half = (relative(observed(PAIR, task(), way, n), fine) for n in (320, 640))
-    assert coarse / half == pytest.approx(4.0, rel=0.1)
+@pytest.mark.parametrize("kinematics", ["total", "incremental"])
+def test_the_bonded_pair_converges_quadratically_to_one_motion_with_every_integrator(kinematics):
+    fine = observed(PAIR, task(), {"integrator": "midstep", "bond_kinematics": kinematics}, 20480)
+    for integrator in ("midstep", "leapfrog", "velocity_verlet"):
+        way = {"integrator": integrator, "bond_kinematics": kinematics}
+        coarse, half, quarter = (relative(observed(PAIR, task(), way, n), fine) for n in (320, 640, 1280))
+        assert coarse / half == pytest.approx(4.0, rel=0.1)
+        assert half / quarter == pytest.approx(4.0, rel=0.1)
 
 
 def test_orders_are_fitted_where_the_reference_can_tell():

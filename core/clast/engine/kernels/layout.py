@@ -21,7 +21,8 @@ FIRST, SECOND = 1, 2
 # scratch of the bond sweep
 BOND_D, BOND_QI, BOND_QJ, BOND_V, BOND_WI, BOND_WJ = 0, 3, 7, 11, 14, 17
 BOND_F, BOND_MI, BOND_MJ, OVERLOAD, DAMPED, FLOWED = 20, 23, 26, 29, 30, 31
-BOND_SCRATCH = 32
+RATE_V, RATE_WI, RATE_WJ = 32, 35, 38  # velocities at the instant of the forces, for dashpots
+BOND_SCRATCH = 41
 
 # scratch of the contact sweep
 D, RI, RJ, IM, II, REST, DV, WI, WJ, NORMAL = 0, 3, 4, 5, 6, 7, 8, 11, 14, 17
