@@ -8,9 +8,9 @@ import pytest
 
 from clast.bench import store
 from clast.bench.machine import Machine
-from clast.bench.precision.claim import cpu_for, gain, rounded_up, sentence
-from clast.bench.precision.problems import CHAIN, IMPACT, PAIR, PROBLEMS
-from clast.bench.precision.sections import SECTIONS
+from clast.bench.precision.claim import cpu_for, gain, gains, rounded_up, sentence
+from clast.bench.precision.problems import CHAIN, ELASTIC, IMPACT, PAIR, PROBLEMS
+from clast.bench.precision.sections import SECTIONS, verdict
 from clast.bench.precision.sweep import Point, Series, Swept, observed, relative, sweep
 from clast.bench.precision.theory import fitted_order, oscillator_order
 from clast.bench.section import Effort, Task
@@ -19,6 +19,7 @@ from clast.bench.suite import chosen
 from clast.commands import bench as bench_command
 from clast.errors import ConfigError
 from clast.plugins.discovery import discover
+from clast.simulation import Simulation
 
 THIRD_PARTY = Path(__file__).with_name("third_party.py")
 HERE = Machine("a processor", 2, "some software", 0.0)
@@ -125,6 +126,34 @@ def test_the_claim_compares_where_the_slower_still_gets():
     assert (found.fast.label, found.slow.label, found.error) == ("midstep", "leapfrog", 0.03)
     assert sentence(found) == "At an error of 3 %, midstep needs 3.3 times less CPU time than leapfrog"
     assert rounded_up(2.5e-2) == pytest.approx(0.03)
+
+
+def beside_lammps(*points):
+    other = series(*points, way={}, program="LAMMPS")
+    other.fit()
+    mine = series((10, 1e-3, 0.1), (20, 2.5e-4, 0.2))
+    return Swept(mine.way, 1, 1.0, 1000, [mine, other])
+
+
+def test_what_is_asked_beside_lammps_is_decided_at_every_error_that_both_reach():
+    found = beside_lammps((10, 4e-2, 0.5), (20, 2e-2, 1.0), (40, 1e-2, 2.0), (80, 5e-3, 4.0))
+    assert [each.times for each in gains(found)] == pytest.approx([5.0, 10.0, 20.0, 40.0])
+    assert verdict(found).startswith(" Over the errors that both reach, 4 % to 0.5 %, it is 5.0 to 40 times.")
+    assert verdict(found).endswith("10 times; here met from an error of 2 % down.")
+    slowly = beside_lammps((10, 4e-2, 0.1), (20, 2e-2, 0.2), (40, 1e-2, 0.4))
+    assert verdict(slowly).endswith("here **missed**.")
+
+
+def test_two_runs_beside_lammps_decide_nothing():
+    assert "not decided here" in verdict(beside_lammps((10, 4e-2, 5.0), (20, 2e-2, 9.0)))
+
+
+def test_the_coarsest_step_of_the_elastic_grain_is_the_largest_that_is_stable_to_the_end():
+    coarsest = ELASTIC.steps[0]
+    simulation = Simulation(ELASTIC.scene().changed(ELASTIC.changes({}, coarsest)), 1)
+    simulation.advance_to(coarsest)
+    assert coarsest - ELASTIC.instants < ELASTIC.end / simulation.stable_step() <= coarsest
+    assert ELASTIC.steps == tuple(coarsest * 2**k for k in range(len(ELASTIC.steps)))
 
 
 def test_errors_below_what_the_reference_knows_do_not_count():
