@@ -85,10 +85,10 @@ class StepKeeper:
         if fastest > self._most(dt):
             dt = self._smaller(dt, self.limit(present), first_dt)
             bound, fastest = rough_bound(contacts, bodies, self.sensitivity / dt), self._fastest(present, dt)
-        # contacts that grow by one ratio raise the eigenvalue by no more; and it is below the sum of both parts'
-        bonds = largest_eigenvalue(present.bonds, bodies, self.sensitivity / dt)
+        # contacts that grow by one ratio raise the eigenvalue by no more; and it is below the sum of both parts', of
+        # which bonds have no more than everything has now
         ratio = self._most(dt) / fastest if fastest > 0.0 else 0.0
-        self.allowance = max(self._most(dt) - bonds, ratio * bound)
+        self.allowance = max(self._most(dt) - fastest, ratio * bound)
         return dt
 
     def _most(self, dt: float) -> float:
