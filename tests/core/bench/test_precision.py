@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clast.bench import store
+from clast.bench import following, store
+from clast.bench.following import Following
 from clast.bench.machine import Machine
 from clast.bench.precision.claim import cpu_for, gain, gains, rounded_up, sentence
 from clast.bench.precision.problems import CHAIN, ELASTIC, IMPACT, PAIR, PROBLEMS
@@ -184,6 +185,12 @@ def test_a_failing_section_is_told_and_the_others_go_on(tmp_path):
     told = page.read_text()
     assert "ValueError: no luck today" in told
     assert "midstep needs 3.3 times" in told
+
+
+def test_the_share_of_following_the_stable_step_is_told_beside_its_target():
+    told = [following.text(Following(80_000, 8, looks, 9.0), Path()) for looks in (0.045, 0.18)]
+    assert "0.50 % of the run (target < 1 %: met)" in told[0]
+    assert "2.00 % of the run (target < 1 %: **missed**)" in told[1]
 
 
 def test_results_of_another_kind_are_refused(tmp_path):
