@@ -180,7 +180,7 @@ class _Session:
 
     def _save_what_is_sound(self) -> None:
         """Keep the last good checkpoint where the numbers cannot be trusted: the next sample will stop the run."""
-        if self.simulation.complaint() is None:
+        if self.simulation.sound():
             self.save()
 
     def save(self) -> None:

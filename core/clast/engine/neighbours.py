@@ -99,7 +99,7 @@ def carried(old_key: Integers, new_key: Integers, *old: NDArray[Any]) -> list[ND
 
 def bond_places(bonds: Bonds, pairs: Integers, begin: Indices) -> Integers:
     """Return where each pair's bond stands in its chunk's part of the bond table, −1 for pairs without one."""
-    holds = slot_view(bonds, INTACT) > 0.0
+    holds = slot_view(bonds, INTACT) == 1.0
     return np.concatenate(
         [
             _places(bonds, holds, slice(*bonds.begin[c : c + 2]), pairs[slice(*begin[c : c + 2])])

@@ -94,7 +94,7 @@ def _flags(plan: Blueprint) -> str:
 def _integrator(plan: Blueprint) -> str:
     stages = plan.integrator.stages
     spans = [stages[k].drift_before + stages[k - 1].drift_after for k in range(len(stages))]
-    return f"STAGES = {tuple(stages)!r}\nSPANS = {tuple(spans)!r}"
+    return f"STAGES = {tuple(stages)!r}\nSPANS = {tuple(spans)!r}\nLAG = {plan.integrator.velocity_lag!r}"
 
 
 def _bind(name: str, item: Callable[..., Any] | type | None) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from clast.engine.timeline import Timeline
 from clast.errors import RunError
 from clast.simulation import Simulation
+from clast.soundness.energy import Balance
 
 FILE = "checkpoint.h5"
 PREVIOUS = "checkpoint.previous.h5"
@@ -55,12 +55,12 @@ def _image(simulation: Simulation, notes: Mapping[str, Any]) -> bytes:
     """Return the checkpoint as the bytes of an HDF5 file, made in memory so that a full disk cannot tear it."""
     import h5py
 
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
+    with h5py.File(FILE, "w", driver="core", backing_store=False) as file:
         for name, array in state_arrays(simulation):
             file[name] = array
         file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
-    return buffer.getvalue()
+        file.flush()
+        return bytes(file.id.get_file_image())
 
 
 def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
@@ -86,6 +86,7 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
         simulation.timeline = Timeline(about["timeline"])
         simulation.keeper.allowance = float(about["allowance"])
         simulation.keeper.estimates = int(about["estimates"])
+        simulation.soundness.energy.balance = Balance(*about["balance"])
         simulation.follow_timeline()
         simulation.removed = int(about["removed"])
         simulation.rebuilds = int(about["rebuilds"])
@@ -115,6 +116,7 @@ def identity(simulation: Simulation) -> dict[str, Any]:
         "timeline": simulation.timeline.spans,
         "allowance": simulation.keeper.allowance,
         "estimates": simulation.keeper.estimates,
+        "balance": simulation.soundness.energy.balance,
         "removed": simulation.removed,
         "rebuilds": simulation.rebuilds,
     }

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
-from clast.maths.vec3 import dot, sub
+from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
-from .contact_lane import contact_lane, gather, radii, scatter
-from .lanes import put, row
+from .contact_lane import contact_lane, gather, radii, read_touch, scatter
+from .lanes import put, row, vector
 from .layout import (
     FIRST,
     INTACT,
@@ -18,12 +18,14 @@ from .layout import (
     RI,
     RJ,
     VISCOUS,
+    WOKEN,
     D,
     V,
     X,
 )
 from .slots import (
     BONDED_PAIRS_TOUCH,
+    CHOICES,
     CHUNKED,
     CONTACT_LOSSES,
     HISTORY,
@@ -31,6 +33,8 @@ from .slots import (
     REMEMBERS,
     RESTS,
     VELOCITY_FORCES,
+    contact_energy,
+    fresh_history,
     row_constants,
 )
 
@@ -76,6 +80,27 @@ def joined(pairs: Pairs, bonds: Bonds, k: int) -> bool:
     """Tell whether an intact bond stands in for the contact of pair k."""
     place = pairs.bond[k]
     return place >= 0 and bool(bonds.data[place // LANES, INTACT * LANES + place % LANES] == 1.0)
+
+
+@routine
+def waking_energy(
+    particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: Floats, lane: int, dt: float
+) -> float:
+    """Return the elastic energy that the contact of pair k begins with, because its bond has just broken, in J.
+
+    The bond broke, on average, half-way between the last two force evaluations: what counts is the overlap there.
+    """
+    now, twist = vector(scratch, D, lane), particles.twist
+    back = scale(0.5 * dt, sub(row(twist, pairs.second[k], V), row(twist, pairs.first[k], V)))
+    gather(particles, pairs, k, numbers, scratch, lane)
+    put(scratch, D, lane, sub(now, back))
+    touch, _, _, _ = read_touch(scratch, lane, numbers, 0.0)
+    put(scratch, D, lane, now)
+    if touch.overlap <= 0.0:
+        return 0.0
+    materials = int(particles.body[pairs.first[k], MATERIAL]), int(particles.body[pairs.second[k], MATERIAL])
+    energy: float = contact_energy(touch, row_constants(numbers.contact_table[materials]), fresh_history(), CHOICES)
+    return energy
 
 
 @routine
@@ -134,12 +159,17 @@ def sweep_contacts(
         if CHUNKED:
             ask_for_pair(pairs, min(k + AHEAD, len(pairs.first) - 1), particles)
         touches = 1 if meet(particles, pairs, k, numbers, scratch, count) else 0
+        if not BONDED_PAIRS_TOUCH and pairs.bond[k] >= 0:
+            if joined(pairs, bonds, k):
+                touches = 0
+            else:
+                pairs.bond[k] = -1
+                if touches and pairs.sides[k] & FIRST:
+                    book[WOKEN] += waking_energy(particles, pairs, k, numbers, scratch, count, dt)
         if REMEMBERS and pairs.touching[k] > touches:
             if CONTACT_LOSSES and pairs.sides[k] & FIRST:
                 book[VISCOUS] += parting_loss(particles, pairs, k, dt)
             forget(pairs, k)
-        if not BONDED_PAIRS_TOUCH and joined(pairs, bonds, k):
-            touches = 0
         active[count] = k
         count += touches
         if count == LANES:

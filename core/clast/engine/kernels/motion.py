@@ -30,7 +30,6 @@ from .rows import set_first_half, set_half_row, set_row
 from .slots import (
     APPLIED_LOADS,
     BODY_FORCES,
-    LEDGER,
     ORIENTATION,
     SPIN,
     VELOCITY_FORCES,
@@ -187,8 +186,7 @@ def move_after_forces(
     dt = numbers.dt
     for k in range(begin, end):
         accelerate(particles, k, numbers, time)
-        if LEDGER:
-            book_outside_work(particles, k, numbers, time, book, span)
+        book_outside_work(particles, k, numbers, time, book, span)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)
         if stage.drift_after != 0.0:
