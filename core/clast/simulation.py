@@ -90,6 +90,7 @@ class Simulation:
         self.limits: Limits = limits(self.scene, self.plan)
         self.timeline = Timeline([Span(0, 0.0, choose_step(self.scene, self.limits))])
         self.keeper = StepKeeper(self.scene, self.plan)
+        self.keeper.above = self.dt / self.limits.stable
         self.skin = choose_skin(self.scene)
         self.gauge = Gauge(config)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)

@@ -13,6 +13,9 @@ from clast.parts.contact_law import ContactLaw, Features
 from clast.parts.integrator import Integrator
 from clast.parts.wall import BodyForce, Motion, Wall
 
+TURNED = "turned"
+"""Crack mode of a bond whose ends moved beyond what its kinematics can measure."""
+
 
 @dataclass(frozen=True)
 class BondPlan:
@@ -31,6 +34,11 @@ class BondPlan:
     uniform: tuple[bool, ...]
     damping: bool = False
     fade: bool = False
+
+    @property
+    def crack_modes(self) -> tuple[str, ...]:
+        """Names of what can break a bond: those of its model, and last the limit of its kinematics if it has one."""
+        return (*self.model.modes, *((TURNED,) if self.kinematics.beyond is not None else ()))
 
 
 @dataclass(frozen=True)
@@ -128,6 +136,7 @@ class Blueprint:
             found += [
                 kinematics.measure,
                 kinematics.end_loads,
+                kinematics.beyond,
                 model.load,
                 model.failure,
                 model.mode,

@@ -70,6 +70,9 @@ class BondKinematics:
         State of the undeformed bond; all 0 when absent.
     needs_orientation, needs_velocity : bool
         What of :class:`BondMotion` must be gathered.
+    beyond : (motion) -> bool, optional
+        Whether the ends have moved so far that the strains tell nothing any more. Asked at every force evaluation; such
+        a bond breaks whatever its model says, with the mode ``turned`` in the crack table.
     """
 
     summary: str
@@ -82,3 +85,4 @@ class BondKinematics:
     start: Callable[[NDArray[np.float64], NDArray[np.float64]], Any] | None = None
     needs_orientation: bool = False
     needs_velocity: bool = False
+    beyond: Callable[[BondMotion], bool] | None = None

@@ -86,6 +86,7 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
         simulation.timeline = Timeline(about["timeline"])
         simulation.keeper.allowance = float(about["allowance"])
         simulation.keeper.estimates = int(about["estimates"])
+        simulation.keeper.above = float(about["above"])
         simulation.soundness.energy.balance = Balance(*about["balance"])
         simulation.follow_timeline()
         simulation.removed = int(about["removed"])
@@ -116,6 +117,7 @@ def identity(simulation: Simulation) -> dict[str, Any]:
         "timeline": simulation.timeline.spans,
         "allowance": simulation.keeper.allowance,
         "estimates": simulation.keeper.estimates,
+        "above": simulation.keeper.above,
         "balance": simulation.soundness.energy.balance,
         "removed": simulation.removed,
         "rebuilds": simulation.rebuilds,

@@ -146,7 +146,7 @@ class Store:
                 known = len(table[name])
                 table[name].resize(count, axis=0)
                 table[name][known:] = values[known:]
-            modes = simulation.plan.bonds.model.modes if simulation.plan.bonds is not None else ()
+            modes = simulation.plan.bonds.crack_modes if simulation.plan.bonds is not None else ()
             table["mode"].attrs["modes"] = list(modes)
         except OSError as error:
             raise self._full(error) from error

@@ -103,11 +103,11 @@ class ImpactsAhead:
             per_mass = float(body[a, INVERSE_MASS] + body[b, INVERSE_MASS])
             radii = (float(radius[a]), float(radius[b]))
             yield Meeting(f"particles {a} and {b}", materials, radii, per_mass, float(closing[k]))
-        walls, k, towards, overlap = near.walls
-        speed = np.einsum("kc,kc->k", v[k] - world.walls.velocity[walls], towards)
-        for p in np.nonzero((overlap < 0.0) & (speed > 0.0))[0].tolist():
-            who = f"particle {k[p]} and the wall '{list(self.scene.config.walls)[walls[p]]}'"
-            materials = (int(body[k[p], MATERIAL]), int(world.walls.material[walls[p]]))
-            yield Meeting(
-                who, materials, (float(radius[k[p]]), np.inf), float(body[k[p], INVERSE_MASS]), float(speed[p])
-            )
+        walls, beside, towards, depth = near.walls
+        speed = np.einsum("kc,kc->k", v[beside] - world.walls.velocity[walls], towards)
+        for p in np.nonzero((depth < 0.0) & (speed > 0.0))[0].tolist():
+            one, wall = int(beside[p]), int(walls[p])
+            who = f"particle {one} and the wall '{list(self.scene.config.walls)[wall]}'"
+            materials = (int(body[one, MATERIAL]), int(world.walls.material[wall]))
+            radii = (float(radius[one]), np.inf)
+            yield Meeting(who, materials, radii, float(body[one, INVERSE_MASS]), float(speed[p]))

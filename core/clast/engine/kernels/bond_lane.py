@@ -39,10 +39,12 @@ from .slots import (
     BOND_DAMPING,
     BOND_EVENTS,
     BOND_FLOW,
+    BOND_LIMIT,
     BOND_ORIENTATION,
     BOND_VELOCITY,
     FADE,
     LEDGER,
+    bond_beyond,
     bond_end_loads,
     bond_energy,
     bond_failure,
@@ -142,7 +144,10 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     write_kinematic_state(data, lane, kinematic_state)
     if BOND_FLOW:
         write_bond_state(data, lane, state)
-    data[INDEX * LANES + lane] = bond_failure(strain, load, constants, state)
+    index = bond_failure(strain, load, constants, state)
+    if BOND_LIMIT:
+        index = 1.0 if bond_beyond(motion) else index
+    data[INDEX * LANES + lane] = index
     if BOND_EVENTS:
         scratch[OVERLOAD * LANES + lane] = bond_overload(strain, constants, state)
     put(scratch, BOND_F, lane, ends.force)
