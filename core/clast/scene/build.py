@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.mass_scaling import with_heavier_particles
+from clast.errors import ConfigError, KeyPath
 from clast.parts.generator import BondList, Packing
 from clast.plugins.nearest import suggestion
-from clast.scene.bonding import bond_neighbours
+from clast.scene.bonding import bond_neighbours, doubled
 from clast.scene.scene import Origin, Scene
 
 Floats = NDArray[np.float64]
@@ -25,7 +26,7 @@ def build_scene(config: SceneConfig) -> Scene:
     Raises
     ------
     PackingError, ConfigError
-        From the generators, and from :func:`join`.
+        From the generators, and from :func:`generated` and :func:`join`.
     """
     scene = join(config, [(chosen, generated(config, chosen)) for chosen in config.generators])
     step = config.time.selective_mass_scaling
@@ -33,10 +34,42 @@ def build_scene(config: SceneConfig) -> Scene:
 
 
 def generated(config: SceneConfig, chosen: Chosen) -> Packing:
-    """Run one generator of a config; its errors are told with their place in the scene."""
+    """Run one generator of a config; its errors are told with their place in the scene.
+
+    Raises
+    ------
+    PackingError, ConfigError
+        From the generator; and where it bonds a particle that is not there, one to itself, or two of them twice.
+    """
     with config.placing(config.path_of(chosen)):
         packing: Packing = chosen.part.generate(chosen.params, config.folder)
+    if packing.bonds is not None:
+        _refuse_senseless_bonds(config, chosen, packing.bonds, len(packing.radius))
     return packing
+
+
+def _refuse_senseless_bonds(config: SceneConfig, chosen: Chosen, bonds: BondList, particles: int) -> None:
+    """Refuse bonds with particles that are not there, with themselves, or between two that are bonded already."""
+    def wrong(k: int, text: str) -> ConfigError:
+        i, j = bonds.ends[k]
+        return config.problem(place(k), f"bond {k} connects particles {i} and {j}, counted from 0{text}")
+
+    def place(k: int) -> KeyPath | str:
+        found = bonds.origin(k)
+        return found if isinstance(found, str) else (*config.path_of(chosen), *found)
+
+    missing = ((bonds.ends < 0) | (bonds.ends >= particles)).any(axis=1)
+    if missing.any():
+        raise wrong(int(np.argmax(missing)), f", but the last is {particles - 1}")
+    alone = bonds.ends[:, 0] == bonds.ends[:, 1]
+    if alone.any():
+        raise wrong(int(np.argmax(alone)), ": one with itself; two different particles are needed")
+    twice = doubled(bonds.ends)
+    if twice is not None:
+        k, first = twice
+        there = place(first)
+        where = there if isinstance(there, str) else ".".join(map(str, there))
+        raise wrong(k, f", as bond {first} does already ({where}); remove one of them")
 
 
 def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
