@@ -51,7 +51,7 @@ def test_a_step_that_the_scene_outgrows_is_told_at_the_end(tmp_path: Path) -> No
 
 def test_energy_is_compared_with_the_look_that_leaves_the_least(tmp_path: Path) -> None:
     simulation = Simulation(load(write(tmp_path, CRUSH)))
-    watch, ledger = simulation.soundness.energy, simulation.ledger()._replace(walls=0.0, kinetic=0.0)
+    watch, ledger = simulation.soundness.energy, simulation.ledger()._replace(kinetic=0.0, contact_elastic=0.0)
     watch.note(ledger._replace(kinetic=1.0))
     watch.note(ledger._replace(kinetic=0.5))
     watch.note(ledger._replace(kinetic=0.6, walls=0.3))

@@ -9,6 +9,7 @@ from clast.engine.kernels.layout import RADIUS, V, W
 from clast.engine.state import World
 from clast.scene.scene import Scene
 from clast.soundness.near import Nearness
+from clast.soundness.suspects import suspects
 
 MOST_WAY = 0.5
 """Longest way of a particle in one step, as a share of the smallest radius."""
@@ -18,14 +19,16 @@ DEEPEST = 1.0
 """Largest overlap, as a share of the smaller radius: beyond it a centre lies inside the other body."""
 
 
-def lost(world: World) -> str | None:
-    """Return which particle has no position or velocity any more."""
+def lost(world: World, scene: Scene) -> str | None:
+    """Return which particle has no position or velocity any more, and which laws may have caused it."""
     particles = world.particles
     if np.isfinite(particles.pose).all() and np.isfinite(particles.twist).all():
         return None
     numbers = np.isfinite(particles.pose).all(axis=1) & np.isfinite(particles.twist).all(axis=1)
     missing = ~numbers & (particles.present != 0)
-    return f"particle {np.argmax(missing)} is nowhere" if missing.any() else None
+    if not missing.any():
+        return None
+    return f"particle {np.argmax(missing)} is nowhere: {suspects(world, scene, missing)}"
 
 
 def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | None:

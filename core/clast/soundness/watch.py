@@ -44,4 +44,4 @@ class Soundness:
 
     def motion_complaint(self, world: World, dt: float) -> str | None:
         """Return the same of single particles, for which neighbour lists need not be fresh."""
-        return lost(world) or too_fast(world, self.scene, self.plan, dt)
+        return lost(world, self.scene) or too_fast(world, self.scene, self.plan, dt)
