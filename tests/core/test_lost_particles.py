@@ -32,6 +32,7 @@ from dataclasses import replace
 from math import inf
 
 from clast import hookimpl
+from clast.parts.bond_model import BondLoad
 from clast_plugins.bond_models import elastic
 
 CLAST_API = 1
@@ -47,7 +48,8 @@ def no_number(x):
 
 def load(strain, c, state):
     found = elastic.load(strain, c, state)
-    return found._replace(normal=no_number(strain.axial) * found.normal)
+    normal = no_number(strain.axial) * found.normal
+    return BondLoad(normal, found.shear, found.torsion, found.bending)
 
 
 def failure(strain, load, c, state):
