@@ -121,7 +121,7 @@ particles:
   bonds:
     - {between: [0, 1], diameter: 1 mm}
 bonds:
-  model: {type: elastic_plastic, young_modulus: 1e8, poisson_ratio: 0.2, yield_stress: 1e12, breakage_strain: 0.001,
+  model: {type: elastic_plastic, young_modulus: 1e8, poisson_ratio: 0.2, yield_stress: 1e12, breakage_strain: 0.0003,
           compressive_break: 1}
 contacts:
   law: hertz_mindlin
@@ -137,7 +137,7 @@ def test_a_contact_that_appears_as_its_bond_breaks_brings_energy_under_its_own_n
     simulation = ended(tmp_path, PRESSED, [])
     ledger = simulation.ledger()
     E_star, R_star = 0.5 * 1e8 / (1.0 - 0.25**2), 0.5e-3
-    overlap = 0.001 * 2e-3
+    overlap = 0.0003 * 2e-3
     assert simulation.bonds_broken == 1
     assert ledger.woken == pytest.approx(8.0 / 15.0 * E_star * np.sqrt(R_star) * overlap**2.5, rel=0.01)
     assert ledger.kinetic == pytest.approx(ledger.start + ledger.woken - ledger.broken, rel=1e-6)

@@ -74,7 +74,7 @@ def energies(world: World, moving: bool, found: Floats) -> None:
         Whether a step was taken; else nothing has moved since the forces.
     found : (3,) float64
     """
-    back = LAG * world.numbers.dt
+    back = -LAG * world.numbers.dt
     time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
     scratch = np.empty(max(BOND_SCRATCH, HISTORY_BASE + HISTORY + 1) * LANES)
     poses, displacements = world.particles.pose.copy(), world.walls.displacement.copy()
