@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from clast.run_command import summary_rows
 
 from clast import Simulation, load, run_scene
 from clast.config.scene import SceneConfig
 from clast.errors import RunError
-from clast.run_command import summary_rows
 from clast.soundness.energy import Balance
 from tests.scenes import CRUSH, write
 

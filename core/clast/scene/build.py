@@ -50,6 +50,7 @@ def generated(config: SceneConfig, chosen: Chosen) -> Packing:
 
 def _refuse_senseless_bonds(config: SceneConfig, chosen: Chosen, bonds: BondList, particles: int) -> None:
     """Refuse bonds with particles that are not there, with themselves, or between two that are bonded already."""
+
     def wrong(k: int, text: str) -> ConfigError:
         i, j = bonds.ends[k]
         return config.problem(place(k), f"bond {k} connects particles {i} and {j}, counted from 0{text}")
