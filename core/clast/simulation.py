@@ -22,7 +22,7 @@ from clast.engine.kernels.layout import (
     X,
 )
 from clast.engine.ledger import Ledger, read_ledger
-from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
+from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.rehearsal import readable_errors, try_laws
 from clast.engine.state import Floats, World
 from clast.engine.step_keeper import StepKeeper
@@ -287,15 +287,3 @@ class Simulation:
             slot_view(bonds, INTACT)[let_go] = 0.0
         if self.plan.ledger:
             self.world.ledger[-1, LEFT] += before - self.ledger().stored
-
-
-def choose_skin(scene: Scene) -> Skin:
-    """Return the skin of the neighbour lists: as the config says, or between a tenth of the smallest radius and two.
-
-    A pair more costs about 3 ns a step, a search about 1 µs a particle; 400 steps between searches balance the two.
-    """
-    skin = scene.config.neighbours.skin
-    if not isinstance(skin, str):
-        return Skin(0.5 * skin, 0.5 * skin, 0.0)
-    smallest = float(scene.radius.min())
-    return Skin(0.1 * smallest, 2.0 * smallest, 400.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint
-from clast.engine.neighbours import choose_slack, find_pairs
+from clast.engine.neighbours import choose_skin, choose_slack, find_pairs
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import World
 from clast.engine.tables import empty_pairs
@@ -21,7 +21,6 @@ from clast.scene.plan import blueprint
 from clast.scene.scene import Scene
 from clast.scene.start import check_start
 from clast.scene.world import build_world
-from clast.simulation import choose_skin
 
 Rows = list[tuple[str, str]]
 LIMIT_NAMES = {
