@@ -78,7 +78,7 @@ def main() -> None:
 @click.option("--resume", is_flag=True, help="Go on where the run in the folder stopped.")
 def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, resume: bool) -> None:
     """Run the scene in FILE."""
-    from clast import run_command
+    from clast.commands import run as run_command
 
     run_command.run(file, output=output, overrides=overrides, threads=threads, resume=resume)
 
@@ -93,7 +93,7 @@ def check(file: Path, overrides: tuple[str, ...], build: bool) -> None:
 
     scene = load(file, overrides)
     if build:
-        from clast import build_report
+        from clast.commands import build_report
 
         click.echo(build_report.report(scene))
         return
@@ -140,7 +140,7 @@ def schema(files: tuple[Path, ...]) -> None:
 @click.argument("names", metavar="[WRITER]...", nargs=-1)
 def write(folder: Path, names: tuple[str, ...]) -> None:
     """Make the files of RUN, the folder of a run, anew; those of all its writers, or of the ones named."""
-    from clast import write_command
+    from clast.commands import write as write_command
 
     write_command.write(folder, names)
 
@@ -149,7 +149,7 @@ def write(folder: Path, names: tuple[str, ...]) -> None:
 @click.argument("folder", metavar="RUN", type=click.Path(path_type=Path))
 def view(folder: Path) -> None:
     """Open the recording of RUN, the folder of a run."""
-    from clast import view_command
+    from clast.commands import view as view_command
     from clast.results.watch import stoppable
 
     with stoppable():
@@ -187,7 +187,7 @@ def verify(
     **parts: str | None,
 ) -> None:
     """Run scenes with known answers, all or each CASE, and compare; exit code 1 where one fails."""
-    from clast import verify_command
+    from clast.commands import verify as verify_command
     from clast.results.watch import stoppable
     from clast.verification.replacement import Replacement
 
@@ -224,9 +224,9 @@ def bench(
     files: tuple[Path, ...],
 ) -> None:
     """Measure speed, and error against run time; write one page with plots."""
-    from clast import bench_command
     from clast.bench.section import Effort
     from clast.bench.suite import chosen
+    from clast.commands import bench as bench_command
     from clast.results.watch import stoppable
 
     sections = chosen([name.strip() for names in only for name in names.split(",")])

@@ -17,9 +17,10 @@ from clast.config.scene import SceneConfig
 from clast.config.sections import StepRule
 from clast.engine.time_step import asked_step, bond_limit, contact_limit, local_limit, pair_limit, rayleigh_limit
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
+from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
 from clast.scene.plan import bond_stiffness
-from clast.scene.scene import Scene, generated, join
+from clast.scene.scene import Scene
 from clast.scene.start import check_contacts, check_start, check_tracks
 
 # seconds a step, measured on one core of an AMD EPYC (family 25, model 1) with grains of 361 to 17 700 primaries:

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from clast import writing
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import RunError
@@ -19,11 +18,12 @@ from clast.results import checkpoint, curves, store, summary
 from clast.results.frames import Frames
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import open_run
+from clast.results.run_folder import run_folder
 from clast.results.samples import Samples
 from clast.results.watch import GO_ON, RunInterruptedError, StopError, Watch, stoppable
 from clast.results.whole_file import whole_file
-from clast.run_folder import run_folder
 from clast.simulation import Simulation
+from clast.writing import launch
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class _Session:
 
     def _save_what_is_sound(self) -> None:
         """Keep the last good checkpoint where the numbers cannot be trusted: the next sample will stop the run."""
-        if self.simulation.complaint() is None:
+        if self.simulation.sound():
             self.save()
 
     def save(self) -> None:
@@ -194,5 +194,5 @@ class _Session:
             told |= summary.mass_scaling_results(self.simulation, run)
             written["summary"] = Written(summary.write(self.folder, told))
         writers = [chosen.name for chosen in self.simulation.config.output.writers]
-        written |= writing.write(self.folder, writers, self.listener.writing)
+        written |= launch.write(self.folder, writers, self.listener.writing)
         return Outcome(self.folder, told, {"results": Written(self.store.path), **written})

@@ -11,32 +11,34 @@ from clast.config.scene import SceneConfig
 from clast.engine.assemble import Kernel, assemble
 from clast.engine.crew import Crew
 from clast.engine.kernels.layout import (
+    FIRST,
     INTACT,
     INVERSE_INERTIA,
     INVERSE_MASS,
     LEFT,
-    PRIMED,
     STALE,
     START,
     STEP,
     X,
 )
 from clast.engine.ledger import Ledger, read_ledger
-from clast.engine.neighbours import Skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
+from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.rehearsal import readable_errors, try_laws
 from clast.engine.state import Floats, World
 from clast.engine.step_keeper import StepKeeper
-from clast.engine.tables import intact, slot_view
+from clast.engine.tables import slot_view
 from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
+from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
-from clast.scene.plan import blueprint, build_world, relieve
-from clast.scene.scene import Scene, build_scene
+from clast.scene.plan import blueprint
+from clast.scene.scene import Scene
 from clast.scene.start import check_start, outside_of
+from clast.scene.world import build_world, relieve
 from clast.soundness.watch import Soundness
 
-BOND_COLUMNS, BOND_ENERGY = 8, 7
+BOND_COLUMNS = 8
 
 
 class Observer(Protocol):
@@ -88,12 +90,13 @@ class Simulation:
         self.limits: Limits = limits(self.scene, self.plan)
         self.timeline = Timeline([Span(0, 0.0, choose_step(self.scene, self.limits))])
         self.keeper = StepKeeper(self.scene, self.plan)
+        self.keeper.above = self.dt / self.limits.stable
         self.skin = choose_skin(self.scene)
         self.gauge = Gauge(config)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
-        self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral)
+        self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral, self.kernel.gaps)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
         self.crew = Crew(threads, self.world)
         self.removed = 0
@@ -130,7 +133,8 @@ class Simulation:
     @property
     def bonds_intact(self) -> int:
         """Number of bonds that hold."""
-        return int(np.count_nonzero(intact(self.world.bonds)))
+        bonds = self.world.bonds
+        return int(np.count_nonzero((slot_view(bonds, INTACT) == 1.0) & ((bonds.sides & FIRST) != 0)))
 
     def run(self, observers: Sequence[Observer] = ()) -> None:
         """Advance to the end, stopping where observers want to look.
@@ -227,33 +231,33 @@ class Simulation:
         return output
 
     def ledger(self) -> Ledger:
-        """Return where all energy is now; work and losses are only known with ``output.ledger``."""
-        elastic = np.zeros(2)
-        self.kernel.energies(self.world, bool(self.world.clock[PRIMED]), elastic)
-        return read_ledger(self.world, *(float(each) for each in elastic))
+        """Return where all energy is now; losses are only known with ``output.ledger``."""
+        held = np.zeros(3)
+        self.kernel.energies(self.world, self.step > 0, held)
+        return read_ledger(self.world, *held.tolist())
 
     def note_start(self) -> None:
-        """Note the energy at the start, to which :attr:`soundness` compares that of closed scenes."""
-        self.soundness.energy.begin(self.world, self._bond_energies(), self.dt)
+        """Note the energy at the start, with which :attr:`soundness` begins."""
+        self.soundness.energy.note(self.ledger())
 
-    def complaint(self) -> str | None:
-        """Return what the time step cannot follow now, or that energy came from nowhere; None if all is well."""
+    def sound(self) -> bool:
+        """Tell whether the numbers can be trusted now."""
         found = self.soundness.complaint(self.world, self.dt)
-        return found or self.soundness.energy.complaint(self.world, self._bond_energies())
+        return found is None and self.soundness.energy.complaint(self.ledger(), self.world) is None
 
-    def refuse_nonsense(self) -> None:
-        """Look whether the numbers can be trusted.
+    def trusted_ledger(self) -> Ledger:
+        """Return where all energy is now, and let :attr:`soundness` compare it with what was there before.
 
         Raises
         ------
         RunError
-            If they cannot.
+            If the numbers cannot be trusted.
         """
-        self._stop_for(self.complaint())
-
-    def _bond_energies(self) -> Floats:
-        needed = self.soundness.energy.closed and len(self.scene.ends) > 0
-        return self.bond_loads()[:, BOND_ENERGY] if needed else np.zeros(0)
+        self._stop_for(self.soundness.complaint(self.world, self.dt))
+        ledger = self.ledger()
+        self._stop_for(self.soundness.energy.complaint(ledger, self.world))
+        self.soundness.energy.note(ledger)
+        return ledger
 
     def _stop_for(self, complaint: str | None) -> None:
         if complaint is not None:
@@ -281,15 +285,3 @@ class Simulation:
             slot_view(bonds, INTACT)[let_go] = 0.0
         if self.plan.ledger:
             self.world.ledger[-1, LEFT] += before - self.ledger().stored
-
-
-def choose_skin(scene: Scene) -> Skin:
-    """Return the skin of the neighbour lists: as the config says, or between a tenth of the smallest radius and two.
-
-    A pair more costs about 3 ns a step, a search about 1 µs a particle; 400 steps between searches balance the two.
-    """
-    skin = scene.config.neighbours.skin
-    if not isinstance(skin, str):
-        return Skin(0.5 * skin, 0.5 * skin, 0.0)
-    smallest = float(scene.radius.min())
-    return Skin(0.1 * smallest, 2.0 * smallest, 400.0)

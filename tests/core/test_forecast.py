@@ -16,8 +16,8 @@ from clast.config.scene import SceneConfig
 from clast.engine.time_step import choose_step, limits, pair_limit
 from clast.errors import ConfigError
 from clast.forecast import COMPILER_BYTES, forecast, time_concerns
+from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
-from clast.scene.scene import build_scene
 from tests.scenes import COLLISION, CRUSH, write
 
 CONFIGS = Path(__file__).parents[2] / "configs"
@@ -142,7 +142,7 @@ def test_more_memory_than_the_machine_has_is_pointed_out(monkeypatch: pytest.Mon
 RUN = """
 import sys
 from pathlib import Path
-from clast import run_command
+from clast.commands import run as run_command
 run_command.run(Path(sys.argv[1]), output=Path(sys.argv[2]))
 print(Path("/proc/self/status").read_text())
 """

@@ -39,10 +39,11 @@ def test_elastic_loading_closes_to_a_millionth_at_a_tenth_of_the_stable_step(tmp
     assert abs(simulation.ledger().closure) < 1e-6
 
 
-def test_the_error_of_an_elastic_impact_falls_with_the_square_of_the_step(tmp_path: Path) -> None:
+@pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
+def test_the_error_of_an_elastic_impact_falls_with_the_square_of_the_step(tmp_path: Path, integrator: str) -> None:
     errors = []
     for step in (8e-7, 4e-7, 2e-7):
-        elastic = [LEDGER, "contacts.pairs.default.restitution=1", f"time.step={step}"]
+        elastic = [LEDGER, "contacts.pairs.default.restitution=1", f"time.step={step}", f"integrator={integrator}"]
         simulation = Simulation(load(write(tmp_path, COLLISION), elastic))
         closures = []
         for k in range(1, 101):
@@ -105,6 +106,41 @@ def test_what_slides_heats_by_friction_times_way_and_its_driver_pays(tmp_path: P
     way = 0.1 * simulation.time
     assert ledger.sliding == pytest.approx(0.3 * push * way, rel=1e-3)
     assert ledger.driven == pytest.approx(ledger.sliding, rel=1e-3)
+    assert abs(ledger.closure) < 1e-6
+
+
+PRESSED = """
+name: pressed
+materials: {glass: {density: 2500, young_modulus: 1e8, poisson_ratio: 0.25}}
+particles:
+  type: explicit
+  material: glass
+  particles:
+    - {position: [0, 0, 0], radius: 1 mm, velocity: [0.05, 0, 0]}
+    - {position: [2 mm, 0, 0], radius: 1 mm, velocity: [-0.05, 0, 0]}
+  bonds:
+    - {between: [0, 1], diameter: 1 mm}
+bonds:
+  model: {type: elastic_plastic, young_modulus: 1e8, poisson_ratio: 0.2, yield_stress: 1e12, breakage_strain: 0.0003,
+          compressive_break: 1}
+contacts:
+  law: hertz_mindlin
+  bonded_pairs: false
+  pairs: {default: {restitution: 1}}
+time: {step: 1e-8, end: {time: 4e-4}}
+output: {samples: 100, frames: 2, writers: [], ledger: true}
+"""
+
+
+def test_a_contact_that_appears_as_its_bond_breaks_brings_energy_under_its_own_name(tmp_path: Path) -> None:
+    """The spheres press their bond until it breaks; from then on they are a plain contact that overlaps already."""
+    simulation = ended(tmp_path, PRESSED, [])
+    ledger = simulation.ledger()
+    E_star, R_star = 0.5 * 1e8 / (1.0 - 0.25**2), 0.5e-3
+    overlap = 0.0003 * 2e-3
+    assert simulation.bonds_broken == 1
+    assert ledger.woken == pytest.approx(8.0 / 15.0 * E_star * np.sqrt(R_star) * overlap**2.5, rel=0.01)
+    assert ledger.kinetic == pytest.approx(ledger.start + ledger.woken - ledger.broken, rel=1e-6)
     assert abs(ledger.closure) < 1e-6
 
 

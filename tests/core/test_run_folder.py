@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 import pytest
 
-from clast.run_folder import run_folder
+from clast.results.run_folder import run_folder
 from tests.core.test_messages import clast, said, scene, table
 from tests.scenes import COLLISION
 

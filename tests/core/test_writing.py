@@ -14,10 +14,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from clast import Simulation, load, run_scene, writing
+from clast import Simulation, load, run_scene
 from clast.cli import main
 from clast.parts.writer import Written
 from clast.session import Listener
+from clast.writing import launch
 from tests.scenes import COLLISION, write
 
 INK = '''
@@ -137,8 +138,8 @@ def test_what_lies_beside_the_file_is_kept_too_and_nothing_else(folder: Path) ->
 
 def test_drawing_leaves_the_process_of_the_run_alone(folder: Path) -> None:
     code = (
-        "import sys; from pathlib import Path; from clast import writing\n"
-        "written = writing.write(Path(sys.argv[1]), ['vtk', 'figure'], print)\n"
+        "import sys; from pathlib import Path; from clast.writing import launch\n"
+        "written = launch.write(Path(sys.argv[1]), ['vtk', 'figure'], print)\n"
         "print(*written, 'matplotlib' in sys.modules)"
     )
     told = subprocess.run([sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True)
@@ -150,7 +151,7 @@ def test_failing_crashing_and_idle_writers_cost_only_their_own_files(folder: Pat
     (folder / "torn.txt").write_text("of an earlier day")
     started: list[str] = []
     names = ["torn", "dead", "leaving", "silent", "unwilling", "words"]
-    written = writing.write(folder, names, started.append)
+    written = launch.write(folder, names, started.append)
     assert started == names == list(written)
     assert written["torn"].skipped.startswith("not written: ")
     assert "ink.py:29: ValueError: no ink" in written["torn"].skipped
@@ -181,8 +182,8 @@ def test_no_room_for_drafts_costs_the_files_only(folder: Path, monkeypatch: pyte
     def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(writing, "TemporaryDirectory", full)
-    written = writing.write(folder, ["words"], nothing)
+    monkeypatch.setattr(launch, "TemporaryDirectory", full)
+    written = launch.write(folder, ["words"], nothing)
     assert written["words"].skipped == "not written: [Errno 28] No space left on device"
 
 
@@ -207,7 +208,7 @@ def test_a_stop_while_writing_ends_the_writer_too_and_keeps_the_run(
 
 def test_writers_work_where_python_hears_no_signals(folder: Path) -> None:
     written: dict[str, Written] = {}
-    thread = threading.Thread(target=lambda: written.update(writing.write(folder, ["words"], nothing)))
+    thread = threading.Thread(target=lambda: written.update(launch.write(folder, ["words"], nothing)))
     thread.start()
     thread.join(timeout=60)
     assert written["words"].path == folder / "words.txt"

@@ -12,8 +12,8 @@ from clast.config.scene import SceneConfig, from_mapping
 from clast.engine.damped_step import stable_step
 from clast.engine.springs import bodies_at_start, springs_at_start
 from clast.engine.time_step import limits
+from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
-from clast.scene.scene import build_scene
 from tests.support.springs import largest
 
 PAGE = Path("docs/time-step.md")

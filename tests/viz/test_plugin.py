@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import clast_viz
-from clast import view_command
+from clast.commands import view as view_command
 from clast.errors import RunError
 from clast.results.whole_file import whole_file
 

@@ -41,7 +41,7 @@ BANDS = (
     Band("dashpots of bonds", "#c2a5cf", ("bond_viscous",)),
     Band("left with particles", "#bababa", ("left",)),
 )
-WORK = ("start", "walls", "driven", "applied", "body")
+WORK = ("start", "walls", "driven", "applied", "body", "woken")
 
 
 class EnergyParams(Params):

@@ -78,6 +78,7 @@ VARIANTS = (
     Variant("incremental", "incremental kinematics instead of total", _bonds(kinematics="incremental")),
     Variant("rolling", "rolling friction on", _pairs(rolling_friction=0.05)),
     Variant("bond_damping", "bond damping on", _bonds(damping=0.05)),
+    Variant("ledger", "energy ledger on", lambda data: data["output"].update(ledger=True)),
     Variant("gravity", "gravity on", _set("body_forces", [{"type": "gravity", "acceleration": [0.0, 0.0, -9.81]}])),
 )
 BREAKDOWN = (EVERYTHING, "no_contacts", "only_motion")

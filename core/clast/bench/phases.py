@@ -58,15 +58,16 @@ def sweeps(kernels: Kernels) -> dict[str, Callable[..., None]]:
         numbers = world.numbers
         for _ in range(repeats):
             for c in range(len(world.chunks) - 1):
-                sweep_bonds(world.bonds, c, world.particles, world.cracks, numbers, world.scratch[c], numbers.dt, 1)
+                scratch, book = world.scratch[c], world.ledger[c]
+                sweep_bonds(world.bonds, c, world.particles, world.cracks, numbers, scratch, book, numbers.dt, 1)
 
     @njit(**INNER)  # type: ignore[untyped-decorator]
     def contacts(world: Any, repeats: int) -> None:
         numbers, active = world.numbers, np.empty(LANES, np.uint32)
         for _ in range(repeats):
             for c in range(len(world.chunks) - 1):
-                scratch = world.scratch[c]
-                sweep_contacts(world.pairs, c, world.bonds, world.particles, numbers, scratch, active, numbers.dt)
+                scratch, book, dt = world.scratch[c], world.ledger[c], numbers.dt
+                sweep_contacts(world.pairs, c, world.bonds, world.particles, numbers, scratch, active, book, dt)
 
     return {"bonds": bonds, "contacts": contacts}
 
@@ -106,7 +107,7 @@ def bond_phases(kernels: Kernels) -> dict[str, Callable[..., None]]:
 
 def contact_phases(kernels: Kernels, touching: Any) -> dict[str, Callable[..., None]]:
     """Return functions of (world, repeats) that do one phase of the contact sweep for the pairs ``touching``."""
-    gather, lane_work, scatter = (kernels.get("contact_sweep", name) for name in ("gather", "contact_lane", "scatter"))
+    gather, lane_work, scatter = (kernels.get("contact_lane", name) for name in ("gather", "contact_lane", "scatter"))
     constants = kernels.get("slots", "row_constants")
 
     @njit(**INNER)  # type: ignore[untyped-decorator]
@@ -121,13 +122,13 @@ def contact_phases(kernels: Kernels, touching: Any) -> dict[str, Callable[..., N
         for _ in range(repeats):
             for _ in range(0, len(touching), LANES):
                 for lane in range(LANES):
-                    lane_work(world.scratch[0], lane, shared, numbers.dt, numbers.lever)
+                    lane_work(world.scratch[0], lane, shared, numbers, numbers.dt)
 
     @njit(**INNER)  # type: ignore[untyped-decorator]
     def scattering(world: Any, repeats: int) -> None:
         for _ in range(repeats):
             for k in range(len(touching)):
-                scatter(world.particles, world.pairs, touching[k], world.scratch[0], k % LANES)
+                scatter(world.particles, world.pairs, touching[k], world.scratch[0], k % LANES, world.ledger[0])
 
     return {"gather": gathering, "law": arithmetic, "scatter": scattering}
 

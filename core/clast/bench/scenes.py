@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from clast.config.scene import from_mapping
-from clast.scene.scene import build_scene
+from clast.scene.build import build_scene
 
 
 class Numbers(NamedTuple):

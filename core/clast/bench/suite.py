@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from clast.bench import beside, crush, sizes, waiting
+from clast.bench import beside, crush, following, sizes, waiting
 from clast.bench.precision.sections import SECTIONS as PRECISION
 from clast.bench.section import Section
 from clast.errors import ConfigError
 from clast.plugins.nearest import suggestion
 
 ERROR_AGAINST_TIME: tuple[Section, ...] = (*PRECISION, crush.SECTION)
-SECTIONS: tuple[Section, ...] = (*ERROR_AGAINST_TIME, beside.SECTION, sizes.SECTION, waiting.SECTION)
+SECTIONS: tuple[Section, ...] = (
+    *ERROR_AGAINST_TIME,
+    beside.SECTION,
+    sizes.SECTION,
+    waiting.SECTION,
+    following.SECTION,
+)
 
 
 def chosen(names: Collection[str]) -> list[Section]:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from clast import Simulation, load
+from clast.engine.step_keeper import StepKeeper
 from clast.results import checkpoint
 from clast.results.frames import Frames
 from clast.results.memory import peak_memory
@@ -73,8 +74,9 @@ class Clocks(Listener):
         return clocked
 
     def watch(self) -> None:
-        """Clock the lists of neighbours and what a session does besides stepping."""
+        """Clock the lists of neighbours, the looks at the stable step, and what a session does besides stepping."""
         Simulation.renew_lists = self.timed("lists", Simulation.renew_lists)  # type: ignore[method-assign]
+        StepKeeper.look = self.timed("limit", StepKeeper.look)  # type: ignore[method-assign]
         Samples.observe = self.timed("samples", Samples.observe)  # type: ignore[method-assign]
         Store.flush = self.timed("saving", Store.flush)  # type: ignore[method-assign]
         checkpoint.save = self.timed("saving", checkpoint.save)

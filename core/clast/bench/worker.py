@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from clast import Simulation, load, writing_process
+from clast import Simulation, load
 from clast.results.memory import peak_memory
+from clast.writing import process as writing_process
 
 Measured = dict[str, Any]
 ONE_THREAD = 1

@@ -37,6 +37,8 @@ class Kernel:
         See ``kernels.energies.energies``.
     near_walls : (particles, walls, slack, wall_slack, near) -> None
         See ``kernels.near_walls.near_walls``.
+    gaps : (world, between, at_walls) -> None
+        See ``kernels.gaps.gaps``.
     digest : str
         Of every source that takes part.
     fresh : bool
@@ -47,6 +49,7 @@ class Kernel:
     observe: Callable[..., None]
     energies: Callable[..., None]
     near_walls: Callable[..., None]
+    gaps: Callable[..., None]
     digest: str
     fresh: bool
 
@@ -87,16 +90,18 @@ def assemble(plan: Blueprint) -> Kernel:
     _write_package(folder, text)
     _register([*plan.functions(), *helpers])
     package = _import_package(name, folder)
-    advance, observe, energies, near_walls = (
+    advance, observe, energies, near_walls, gaps = (
         Entry(getattr(_submodule(package, file), function), folder / "lock")
         for file, function in (
             ("step_loop", "advance"),
             ("observe", "observe"),
             ("energies", "energies"),
             ("near_walls", "near_walls"),
+            ("gaps", "gaps"),
         )
     )
-    return Kernel(advance, observe, energies, near_walls, name.removeprefix("clast_kernel_"), fresh=not advance.on_disk)
+    fresh = not advance.on_disk
+    return Kernel(advance, observe, energies, near_walls, gaps, name.removeprefix("clast_kernel_"), fresh)
 
 
 def _template_helpers() -> list[Callable[..., Any]]:

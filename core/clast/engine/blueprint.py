@@ -13,6 +13,9 @@ from clast.parts.contact_law import ContactLaw, Features
 from clast.parts.integrator import Integrator
 from clast.parts.wall import BodyForce, Motion, Wall
 
+TURNED = "turned"
+"""Crack mode of a bond whose ends moved beyond what its kinematics can measure."""
+
 
 @dataclass(frozen=True)
 class BondPlan:
@@ -32,6 +35,11 @@ class BondPlan:
     damping: bool = False
     fade: bool = False
 
+    @property
+    def crack_modes(self) -> tuple[str, ...]:
+        """Names of what can break a bond: those of its model, and last the limit of its kinematics if it has one."""
+        return (*self.model.modes, *((TURNED,) if self.kinematics.beyond is not None else ()))
+
 
 @dataclass(frozen=True)
 class ContactPlan:
@@ -45,6 +53,8 @@ class ContactPlan:
         Whether bonded particles touch too, and whether there are two particles at all.
     one_material : bool
         Whether all particles are of one material, so that one row of constants serves all their contacts.
+    one_size : bool
+        Whether all particles have one radius and one mass, so that they are no matter of single contacts.
     rests : bool
         Whether some pairs overlap at the start without pushing.
     """
@@ -55,6 +65,7 @@ class ContactPlan:
     bonded_pairs: bool = True
     between_particles: bool = True
     one_material: bool = True
+    one_size: bool = True
     rests: bool = False
 
 
@@ -93,14 +104,15 @@ class Blueprint:
 
     @property
     def bond_velocity(self) -> bool:
-        """Whether bonds see velocities."""
-        return self.bonds is not None and (self.bonds.kinematics.needs_velocity or self.bonds.damping)
+        """Whether the kinematics of bonds sums up how the ends move."""
+        return self.bonds is not None and self.bonds.kinematics.needs_velocity
 
     @property
     def velocity_forces(self) -> bool:
         """Whether any force depends on velocities."""
-        damped = self.contacts is not None and (self.contacts.features.damping or self.friction)
-        return damped or self.bond_velocity or bool(self.body_forces)
+        damped_contacts = self.contacts is not None and (self.contacts.features.damping or self.friction)
+        damped_bonds = self.bonds is not None and self.bonds.damping
+        return damped_contacts or damped_bonds or bool(self.body_forces)
 
     @property
     def history(self) -> type | None:
@@ -124,6 +136,7 @@ class Blueprint:
             found += [
                 kinematics.measure,
                 kinematics.end_loads,
+                kinematics.beyond,
                 model.load,
                 model.failure,
                 model.mode,

@@ -20,13 +20,14 @@ class Entry:
     """
 
     def __init__(self, function: Any, lock: Path) -> None:
-        self.function, self.lock = function, lock
+        self.function, self.lock, self.ready = function, lock, False
 
     def __call__(self, *arguments: Any) -> Any:
         """Call it."""
-        if not self.function.signatures:
+        if not self.ready:
             with alone(self.lock):
                 self.function.compile(tuple(self.function.typeof_pyval(each) for each in arguments))
+            self.ready = True
         return self.function(*arguments)
 
     @property

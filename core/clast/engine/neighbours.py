@@ -8,11 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.engine.cache_lines import on_lines
 from clast.engine.chunks import shared_out
 from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, V, X
 from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import slot_view
 from clast.parts.neighbour_search import NeighbourSearch
+from clast.scene.scene import Scene
 
 NearWalls = Callable[..., None]
 
@@ -23,6 +25,18 @@ class Skin(NamedTuple):
     least: float
     most: float
     steps: float
+
+
+def choose_skin(scene: Scene) -> Skin:
+    """Return the skin of the neighbour lists: as the config says, or between a tenth of the smallest radius and two.
+
+    A pair more costs about 3 ns a step, a search about 1 µs a particle; 400 steps between searches balance the two.
+    """
+    skin = scene.config.neighbours.skin
+    if not isinstance(skin, str):
+        return Skin(0.5 * skin, 0.5 * skin, 0.0)
+    smallest = float(scene.radius.min())
+    return Skin(0.1 * smallest, 2.0 * smallest, 400.0)
 
 
 def choose_slack(particles: Particles, skin: Skin, dt: float) -> Floats:
@@ -54,15 +68,17 @@ def find_pairs(
     kept = np.nonzero(old.sides & FIRST)[0]
     before, now = key(old.first[kept], old.second[kept]), key(found[:, 0], found[:, 1])
     touching, history, rest = carried(before, now, old.touching[kept], old.history[kept], old.rest[kept])
-    return Pairs(
-        found[:, 0].astype(np.uint32),
-        found[:, 1].astype(np.uint32),
-        sides,
-        bond_places(bonds, found, begin),
-        rest,
-        touching,
-        history,
-        begin,
+    return on_lines(
+        Pairs(
+            found[:, 0].astype(np.uint32),
+            found[:, 1].astype(np.uint32),
+            sides,
+            bond_places(bonds, found, begin),
+            rest,
+            touching,
+            history,
+            begin,
+        )
     )
 
 
@@ -96,7 +112,7 @@ def carried(old_key: Integers, new_key: Integers, *old: NDArray[Any]) -> list[ND
 
 def bond_places(bonds: Bonds, pairs: Integers, begin: Indices) -> Integers:
     """Return where each pair's bond stands in its chunk's part of the bond table, −1 for pairs without one."""
-    holds = slot_view(bonds, INTACT) > 0.0
+    holds = slot_view(bonds, INTACT) == 1.0
     return np.concatenate(
         [
             _places(bonds, holds, slice(*bonds.begin[c : c + 2]), pairs[slice(*begin[c : c + 2])])

@@ -69,10 +69,13 @@ def _flags(plan: Blueprint) -> str:
         "BOND_DAMPING": bonds is not None and bonds.damping,
         "BOND_EVENTS": bonds is not None and bonds.model.on_event is not None,
         "BOND_FLOW": bonds is not None and bonds.model.flow is not None,
+        "BOND_LIMIT": bonds is not None and bonds.kinematics.beyond is not None,
+        "TURNED_MODE": 0 if bonds is None else len(bonds.model.modes),
         "FADE": bonds is not None and bonds.fade,
         "CONTACTS": contacts is not None and contacts.between_particles,
         "BONDED_PAIRS_TOUCH": bonds is None or (contacts is not None and contacts.bonded_pairs),
         "ONE_MATERIAL": contacts is None or contacts.one_material,
+        "ONE_SIZE": contacts is None or contacts.one_size,
         "RESTS": contacts is not None and contacts.rests,
         "WALLS": bool(plan.walls),
         "BODY_FORCES": bool(plan.body_forces),
@@ -93,7 +96,7 @@ def _flags(plan: Blueprint) -> str:
 def _integrator(plan: Blueprint) -> str:
     stages = plan.integrator.stages
     spans = [stages[k].drift_before + stages[k - 1].drift_after for k in range(len(stages))]
-    return f"STAGES = {tuple(stages)!r}\nSPANS = {tuple(spans)!r}"
+    return f"STAGES = {tuple(stages)!r}\nSPANS = {tuple(spans)!r}\nLAG = {plan.integrator.velocity_lag!r}"
 
 
 def _bind(name: str, item: Callable[..., Any] | type | None) -> str:
@@ -137,7 +140,7 @@ def _writer(name: str, record: type | None, first: int) -> str:
 
 def _bonds(plan: Blueprint) -> str:
     if plan.bonds is None:
-        names = ["measure", "end_loads", "load", "flow", "failure", "mode", "energy", "overload", "on_event"]
+        names = ["measure", "end_loads", "load", "flow", "failure", "mode", "energy", "overload", "on_event", "beyond"]
         readers = ["uniforms", "reference", "constants", "damping", "kinematic_state", "bond_state"]
         lines = [f"bond_{name} = nothing" for name in names] + [f"read_{name} = nothing" for name in readers]
         return "\n".join([*lines, "write_kinematic_state = write_bond_state = reflected = nothing"])
@@ -146,6 +149,7 @@ def _bonds(plan: Blueprint) -> str:
     lines = [
         _bind("bond_measure", kinematics.measure),
         _bind("bond_end_loads", kinematics.end_loads),
+        _bind("bond_beyond", kinematics.beyond),
         *(_bind(f"bond_{name}", getattr(model, name)) for name in ("load", "failure", "mode", "energy")),
         _bind("bond_overload", model.overload),
         _bind("bond_on_event", model.on_event),

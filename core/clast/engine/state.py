@@ -118,6 +118,9 @@ class Numbers(NamedTuple):
     dt: float
     seed: int
     wall_reach2: float  # squared displacement of a wall at which its neighbours go stale
+    radius: float  # of every particle, where all have the same; likewise the next two
+    inverse_mass: float
+    inverse_inertia: float
     lever: float  # 1: forces act at the contact point, 0: at the undeformed radius
     start_kick: float
     fade: float  # share of its load that a breaking bond loses each step

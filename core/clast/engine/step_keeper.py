@@ -37,6 +37,7 @@ class StepKeeper:
 
     Breaking bonds only raise the limit, and no law makes a bond stiffer than it was; so bonds alone need no look.
     Contacts are summed up to a bound; while that is within ``allowance``, the step is safe and nothing is estimated.
+    With ``time.allow_unstable`` a step above the limit is only noted.
 
     Attributes
     ----------
@@ -44,6 +45,8 @@ class StepKeeper:
         Bound of the contacts in rad²/s² up to which the last estimate serves; −1 before the first.
     estimates : int
         How often the limit was estimated while running.
+    above : float
+        Largest step found so far as a share of the limit that held then; below 1 without ``time.allow_unstable``.
     """
 
     def __init__(self, scene: Scene, plan: Blueprint) -> None:
@@ -56,12 +59,21 @@ class StepKeeper:
         self.rule = rule if isinstance(rule, StepRule) and rule.rule == "spectral" else None
         self.tolerated = 0.5 * (1.0 + min(self.rule.factor, 1.0)) if self.rule else 1.0
         self.every = max(EVERY, PARTICLE_STEPS // len(scene.radius))
+        self.unstable = scene.config.time.allow_unstable
         self.allowance = -1.0
         self.estimates = 0
+        self.above = 0.0
+
+    @property
+    def warning(self) -> str | None:
+        """The sentence that says that a step was too large, None where none was."""
+        if self.above <= 1.0:
+            return None
+        return f"do not trust these results: the step was up to {self.above:.4g} times the largest stable one"
 
     def next_look(self, step: int) -> int | None:
         """Return the next step at which to look; None in scenes whose limit cannot fall."""
-        if self.plan.contacts is None or self.scene.config.time.allow_unstable:
+        if self.plan.contacts is None:
             return None
         if step < self.every:  # first contacts stiffen fast: look after 64, 128, 256, … steps
             return min(self.every, max(SOON, 1 << int(step).bit_length()))
@@ -81,14 +93,18 @@ class StepKeeper:
             return dt
         self.estimates += 1
         present = Present(bodies, self.bonds(world), contacts)
+        if self.unstable:
+            self.above = max(self.above, dt / self.limit(present))
+            self.allowance = bound  # no worse until contacts have stiffened further
+            return dt
         fastest = self._fastest(present, dt)
         if fastest > self._most(dt):
             dt = self._smaller(dt, self.limit(present), first_dt)
             bound, fastest = rough_bound(contacts, bodies, self.sensitivity / dt), self._fastest(present, dt)
-        # contacts that grow by one ratio raise the eigenvalue by no more; and it is below the sum of both parts'
-        bonds = largest_eigenvalue(present.bonds, bodies, self.sensitivity / dt)
+        # contacts that grow by one ratio raise the eigenvalue by no more; and it is below the sum of both parts', of
+        # which bonds have no more than everything has now
         ratio = self._most(dt) / fastest if fastest > 0.0 else 0.0
-        self.allowance = max(self._most(dt) - bonds, ratio * bound)
+        self.allowance = max(self._most(dt) - fastest, ratio * bound)
         return dt
 
     def _most(self, dt: float) -> float:

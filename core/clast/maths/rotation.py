@@ -98,6 +98,20 @@ def turn(q: Quat, spin: Vec, time: float) -> Quat:
     return (n * r[0], n * r[1], n * r[2], n * r[3])
 
 
+def chord(spin: Vec, time: float) -> Vec:
+    """Return the vector c by which turning with a constant spin changes a vector: new − old = c x ½ (old + new).
+
+    It lies along the spin and is 2 tan(φ/2) long for the angle φ (Rodrigues' vector, twice); a share of (φ/2)⁶/18 is
+    left out: 6e-8 for 0.2 rad, 1e-3 for 1 rad.
+
+    >>> chord((0.0, 0.0, 0.0), 1.0)
+    (0.0, 0.0, 0.0)
+    """
+    turned = scale(time, spin)
+    z = 0.25 * dot(turned, turned)
+    return scale(1.0 + z * (1.0 / 3.0 + z * (2.0 / 15.0)), turned)
+
+
 def swing(a: Vec, old: Vec, new: Vec) -> Vec:
     """Carry a vector perpendicular to the unit vector ``old`` along the shortest rotation from old to new.
 

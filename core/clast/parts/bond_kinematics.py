@@ -24,9 +24,10 @@ class BondMotion(NamedTuple):
     q_i, q_j : quaternion
         Orientations, 1 at the start; given when the kinematics ``needs_orientation``.
     v : vector
-        Velocity of j minus velocity of i in m/s; given when it ``needs_velocity``.
+        Velocity in m/s with which j moved against i since the forces before, dt ago: d was ``d − v dt`` then. Given
+        when it ``needs_velocity``.
     w_i, w_j : vector
-        Angular velocities in rad/s; given when it ``needs_velocity``.
+        Angular velocities in rad/s with which the ends turned since then; given when it ``needs_velocity``.
     """
 
     d: Vec
@@ -69,6 +70,9 @@ class BondKinematics:
         State of the undeformed bond; all 0 when absent.
     needs_orientation, needs_velocity : bool
         What of :class:`BondMotion` must be gathered.
+    beyond : (motion) -> bool, optional
+        Whether the ends have moved so far that the strains tell nothing any more. Asked at every force evaluation; such
+        a bond breaks whatever its model says, with the mode ``turned`` in the crack table.
     """
 
     summary: str
@@ -81,3 +85,4 @@ class BondKinematics:
     start: Callable[[NDArray[np.float64], NDArray[np.float64]], Any] | None = None
     needs_orientation: bool = False
     needs_velocity: bool = False
+    beyond: Callable[[BondMotion], bool] | None = None

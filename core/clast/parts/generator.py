@@ -24,16 +24,19 @@ class BondList:
     Attributes
     ----------
     ends : (m, 2) int64
-        Particle indices within the packing, ``ends[:, 0] != ends[:, 1]``.
+        Particle indices within the packing; no particle is bonded to itself, no two particles twice.
     diameter : (m,) float64
         Bond diameter in m.
     length : (m,) float64
         Initial length L0 in m; ``nan`` stands for the distance of the two centres.
+    origin : (k) -> key path or str, optional
+        Where the user wrote bond k, for messages: a key path inside the generator's own keys, or file and line.
     """
 
     ends: Ints
     diameter: Floats
     length: Floats
+    origin: Callable[[int], KeyPath | str] = lambda k: ()
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.engine.cache_lines import on_line, on_lines
 from clast.engine.timeline import Timeline
 from clast.errors import RunError
 from clast.plugins.registry import one_line
 from clast.results.room import in_memory
 from clast.simulation import Simulation
+from clast.soundness.energy import Balance
 
 FILE = "checkpoint.h5"
 PREVIOUS = "checkpoint.previous.h5"
@@ -118,6 +120,8 @@ def identity(simulation: Simulation) -> dict[str, Any]:
         "timeline": simulation.timeline.spans,
         "allowance": simulation.keeper.allowance,
         "estimates": simulation.keeper.estimates,
+        "above": simulation.keeper.above,
+        "balance": simulation.soundness.energy.balance,
         "removed": simulation.removed,
         "rebuilds": simulation.rebuilds,
     }
@@ -173,14 +177,15 @@ def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]], about: 
         if group in DERIVED:
             continue
         if isinstance(record, np.ndarray):
-            fresh[group] = arrays[group]
+            fresh[group] = on_line(arrays[group])
         else:
-            tables = {name: np.ascontiguousarray(arrays[f"{group}/{name}"]) for name in record._fields}
-            fresh[group] = record._replace(**tables)
+            fresh[group] = on_lines(type(record)(*(arrays[f"{group}/{name}"] for name in record._fields)))
     simulation.world = simulation.world._replace(**fresh)
     simulation.timeline = Timeline(about["timeline"])
     simulation.keeper.allowance = float(about["allowance"])
     simulation.keeper.estimates = int(about["estimates"])
+    simulation.keeper.above = float(about["above"])
+    simulation.soundness.energy.balance = Balance(*about["balance"])
     simulation.follow_timeline()
     simulation.removed = int(about["removed"])
     simulation.rebuilds = int(about["rebuilds"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -29,10 +28,10 @@ def in_memory(fill: Callable[[Any], object], **options: Any) -> bytes:
     """
     import h5py
 
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w", **options) as file:
+    with h5py.File("in memory", "w", driver="core", backing_store=False, **options) as file:
         fill(file)
-    return buffer.getvalue()
+        file.flush()
+        return bytes(file.id.get_file_image())
 
 
 @contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.kernels.layout import F, M, V, W, X
+from clast.engine.ledger import Ledger
 from clast.engine.state import Floats
 from clast.results import energy
 from clast.results.store import Store
@@ -50,8 +51,8 @@ class Samples:
         RunError
             If the numbers cannot be trusted any more.
         """
-        simulation.refuse_nonsense()
-        self.store.append("curves", self._row(simulation))
+        ledger = simulation.trusted_ledger()
+        self.store.append("curves", self._row(simulation, ledger))
         if len(self.particles):
             self.store.append("tracks/particles", self._particle_row(simulation))
         if len(self.bonds):
@@ -59,7 +60,7 @@ class Samples:
         simulation.world.walls.force_sum[:] = simulation.world.walls.moment_sum[:] = 0.0
         self.previous_step = simulation.step
 
-    def _row(self, simulation: Simulation) -> dict[str, float]:
+    def _row(self, simulation: Simulation, ledger: Ledger) -> dict[str, float]:
         walls, gauge = simulation.world.walls, simulation.gauge
         steps = simulation.step - self.previous_step
         mean = self.mean and steps
@@ -78,7 +79,7 @@ class Samples:
             row |= {f"force_{wall}_{c}_N": force[k, a] for a, c in enumerate("xyz")}
             row |= {f"moment_{wall}_{c}_Nm": moment[k, a] for a, c in enumerate("xyz")}
         row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
-        return row | (energy.columns(simulation.ledger()) if simulation.plan.ledger else {})
+        return row | (energy.columns(ledger) if simulation.plan.ledger else {})
 
     def _particle_row(self, simulation: Simulation) -> dict[str, Floats]:
         particles, k = simulation.world.particles, self.particles

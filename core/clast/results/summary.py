@@ -62,6 +62,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "time_step_estimates": simulation.keeper.estimates,
         "time_step_limits_s": limits_table(simulation),
         "time_step_ruled_by": ruling(simulation.config, simulation.limits),
+        "time_step_warning": simulation.keeper.warning,
         "steps": simulation.step,
         "simulated_time_s": simulation.time,
         "wall_time_s": wall_time,

@@ -97,6 +97,28 @@ def close_pairs(position: Floats, radius: Floats, max_gap: float) -> tuple[Ints,
     return ends[close], gap[close]
 
 
+def doubled(ends: Ints) -> tuple[int, int] | None:
+    """Return the first bond between two particles that are bonded already, and their first bond; None if there is none.
+
+    Parameters
+    ----------
+    ends : (m, 2) int64
+        In either order.
+
+    Examples
+    --------
+    >>> doubled(np.array([[0, 1], [1, 2], [1, 0]]))
+    (2, 0)
+    """
+    pairs = np.sort(ends, axis=1)
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))  # stable: equal pairs keep their order
+    again = np.nonzero((np.diff(pairs[order], axis=0) == 0).all(axis=1))[0]
+    if len(again) == 0:
+        return None
+    k = again[np.argmin(order[again + 1])]
+    return int(order[k + 1]), int(order[k])
+
+
 def _candidates(position: Floats, reach: float) -> Ints:
     """Return every pair nearer than ``reach``, and perhaps some that are farther, (m, 2) with ``i < j`` rising."""
     if len(position) <= FEW:

@@ -1,4 +1,4 @@
-"""From scene to blueprint and world: which parts are compiled, and the numbers they run on."""
+"""Plan: which parts of a scene are compiled, and what they say of its bonds, contacts and walls."""
 
 from __future__ import annotations
 
@@ -8,21 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.config.beside import WallChoice
 from clast.config.choice import Chosen
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
 from clast.engine.chunks import cut
-from clast.engine.kernels.layout import BOND_SCRATCH, CONTACT_FREE, LANES, TERMS
-from clast.engine.records import fields, leaves, numbers, width
-from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Walls, World
-from clast.engine.tables import (
-    bond_table,
-    crack_table,
-    empty_pairs,
-    empty_wall_pairs,
-    no_bonds,
-    particle_tables,
-)
+from clast.engine.records import fields, leaves
+from clast.engine.state import Floats
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
 from clast.scene.scene import Scene
@@ -35,16 +25,17 @@ def blueprint(scene: Scene) -> Blueprint:
         integrator=config.integrator.part,
         bonds=_bond_plan(scene),
         contacts=_contact_plan(scene),
-        walls=_distinct(wall.shape for wall in config.walls.values()),
-        motions=_distinct(wall.motion for wall in config.walls.values() if wall.motion is not None),
+        walls=distinct(wall.shape for wall in config.walls.values()),
+        motions=distinct(wall.motion for wall in config.walls.values() if wall.motion is not None),
         body_forces=tuple(chosen.part for chosen in config.body_forces),
-        applied_loads=len(_applied_loads(scene)) > 0,
+        applied_loads=len(applied_loads(scene)) > 0,
         ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
     )
 
 
-def _distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:
+def distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:
+    """Return the parts that are chosen, each once, in the order of their first choice."""
     return tuple({each.name: each.part for each in chosen}.values())
 
 
@@ -80,8 +71,14 @@ def _contact_plan(scene: Scene) -> ContactPlan | None:
         bonded_pairs=config.bonded_pairs,
         between_particles=len(scene.radius) > 1,
         one_material=len(set(scene.material.tolist())) == 1,
+        one_size=_one_size(scene),
         rests=bool(scene.relieved.any()),
     )
+
+
+def _one_size(scene: Scene) -> bool:
+    """Tell whether every particle has the same radius and mass; driven ones count as infinitely heavy."""
+    return len(np.unique(scene.radius)) == len(np.unique(scene.mass)) == 1 and not scene.prescribed.any()
 
 
 def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
@@ -121,95 +118,10 @@ def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
     return found
 
 
-def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
-    """Return the tables of a scene at its start, neighbour lists still empty."""
-    chunks = cut(len(scene.radius), scene.ends)
-    bonds, uniforms = _bonds(scene, plan, chunks)
-    return World(
-        particles=particle_tables(
-            scene.position,
-            scene.radius,
-            scene.mass,
-            scene.velocity,
-            scene.spin,
-            scene.material,
-            scene.prescribed,
-            weights(scene),
-            _applied_loads(scene),
-        ),
-        bonds=bonds,
-        pairs=empty_pairs(chunks, plan.remembered),
-        wall_pairs=empty_wall_pairs(plan.remembered),
-        walls=_walls(scene, plan),
-        cracks=crack_table(chunks, scene.ends),
-        numbers=_numbers(scene, plan, uniforms, dt, skin),
-        clock=np.zeros(4, np.int64),
-        chunks=chunks,
-        stale=np.zeros(len(chunks), np.uint8),
-        scratch=np.zeros((len(chunks) - 1, _scratch_slots(plan) * LANES)),
-        ledger=np.zeros((len(chunks), TERMS)),
-    )
-
-
-def _applied_loads(scene: Scene) -> Floats:
+def applied_loads(scene: Scene) -> Floats:
     """Return the constant force and torque on each particle, (n, 6); no rows where none acts."""
     loads = np.column_stack([scene.force, scene.torque])
     return loads if loads.any() else loads[:0]
-
-
-def weights(scene: Scene) -> Floats:
-    """Return the share of its mass that body forces act on, (n,): below 1 where a particle was made heavier."""
-    if scene.config.time.selective_mass_scaling is None:
-        return np.ones(len(scene.radius))
-    return scene.true_mass * scene.config.time.mass_scaling / scene.mass
-
-
-def _scratch_slots(plan: Blueprint) -> int:
-    if plan.contacts is None:
-        return BOND_SCRATCH
-    return max(BOND_SCRATCH, CONTACT_FREE + width(plan.contacts.law.Constants) + width(plan.history) + 1)
-
-
-def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, dt: float, skin: float) -> Numbers:
-    config = scene.config
-    body = [
-        value
-        for chosen in config.body_forces
-        for value in numbers(chosen.part.numbers(chosen.params, config.time.mass_scaling))
-    ]
-    seed = getattr(config.bonds.model.params, "seed", 0) if config.bonds else 0
-    return Numbers(
-        bond_uniforms=uniforms,
-        contact_table=_contact_table(scene, plan),
-        body=np.array(body, float),
-        dt=dt,
-        seed=int(seed),
-        wall_reach2=(0.5 * skin) ** 2,
-        lever=0.0 if config.contacts and config.contacts.lever == "radius" else 1.0,
-        start_kick=float(config.integrator.part.start_kick(config.integrator.params)),
-        fade=1.0 / (1 + (config.bonds.fade_steps if config.bonds else 0)),
-        first_step=0,
-        first_time=0.0,
-        late=0.0,
-    )
-
-
-def _bonds(scene: Scene, plan: Blueprint, chunks: Indices) -> tuple[Bonds, Floats]:
-    config = scene.config.bonds
-    if plan.bonds is None or config is None:
-        return no_bonds(chunks), np.zeros(0)
-    d, kinematics = scene.bond_vectors, plan.bonds.kinematics
-    constants = config.model.part.constants(config.model.params, scene.bond_geometry)
-    start = kinematics.start(d, scene.length) if kinematics.start is not None else None
-    damping = damping_coefficients(scene) if plan.bonds.damping else np.zeros((len(d), 4))
-    reference = kinematics.reference(d, scene.length)
-    table = bond_table(plan.bonds, chunks, scene.ends, reference, constants, start, damping)
-    shared = [
-        np.ravel(v)
-        for f, v in zip(fields(type(constants)), leaves(constants), strict=True)
-        if np.ndim(v) < (1 if f.size == 1 else 2)
-    ]
-    return table, np.concatenate([*shared, np.zeros(0)]).astype(float)
 
 
 def bond_stiffness(scene: Scene) -> Stiffness:
@@ -237,57 +149,7 @@ def damping_coefficients(scene: Scene) -> NDArray[np.float64]:
     return np.column_stack([2.0 * scene.config.bonds.damping * np.sqrt(a * b) for a, b in pairs])
 
 
-def _contact_table(scene: Scene, plan: Blueprint) -> Floats:
-    count = len(scene.config.materials)
-    if plan.contacts is None or scene.config.contacts is None:
-        return np.zeros((count, count, 0))
-    law, chosen = plan.contacts.law, scene.config.contacts.law
-    table = np.zeros((count, count, width(law.Constants)))
-    for i, j, pair in material_pairs(scene):
-        row = numbers(law.constants(chosen.params, pair))
-        table[i, j] = row
-        table[j, i] = row
-    return table
-
-
-def relieve(scene: Scene, pairs: Pairs) -> None:
-    """Let the overlaps that relieved particles start with count as undeformed."""
-    i, j = pairs.first.astype(np.int64), pairs.second.astype(np.int64)
-    distance = np.linalg.norm(scene.position[i] - scene.position[j], axis=1)
-    overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
-    pairs.rest[:] = np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0)
-
-
 def wall_shapes(scene: Scene) -> list[tuple[Any, Any]]:
     """Return the nearest-point function and the numbers of each wall's shape."""
     walls = scene.config.walls.values()
     return [(wall.shape.part.nearest, wall.shape.part.shape(wall.shape.params)) for wall in walls]
-
-
-def _walls(scene: Scene, plan: Blueprint) -> Walls:
-    chosen = list(scene.config.walls.values())
-    names = list(scene.config.materials)
-    shapes = [numbers(shape) for _, shape in wall_shapes(scene)]
-    courses = [numbers(w.motion.part.course(w.motion.params)) if w.motion else [] for w in chosen]
-    centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
-    still = [np.zeros((len(chosen), 3)) for _ in range(7)]
-    return Walls(
-        np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
-        _table(shapes),
-        np.array([_motion_kind(plan, wall) for wall in chosen], np.int64),
-        _table(courses),
-        np.array([names.index(wall.material) for wall in chosen], np.int64),
-        np.array(centres, float).reshape(-1, 3),
-        *still,
-    )
-
-
-def _motion_kind(plan: Blueprint, wall: WallChoice) -> int:
-    return len(plan.motions) if wall.motion is None else plan.motions.index(wall.motion.part)
-
-
-def _table(rows: list[list[float]]) -> Floats:
-    table = np.zeros((len(rows), max([0, *map(len, rows)])))
-    for k, row in enumerate(rows):
-        table[k, : len(row)] = row
-    return table

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -10,9 +11,9 @@ import numpy as np
 from clast.engine.blueprint import Blueprint
 from clast.engine.impact import impact_duration
 from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V
-from clast.engine.state import World
+from clast.engine.state import Floats, World
 from clast.scene.scene import Scene
-from clast.soundness.near import Energies, at_walls, near_pairs
+from clast.soundness.near import Energies, Nearness
 
 LEAST_STEPS = 5.0
 """Fewest steps of an impact; with fewer its restitution is wrong by more than some per cent."""
@@ -28,6 +29,11 @@ class Meeting(NamedTuple):
     speed: float
 
 
+def fastest(velocity: Floats) -> float:
+    """Return the largest speed among velocities, (n, 3)."""
+    return sqrt(np.einsum("kc,kc->k", velocity, velocity).max(initial=0.0))
+
+
 class ImpactsAhead:
     """Finds impacts that a step cannot resolve, before they happen.
 
@@ -36,22 +42,21 @@ class ImpactsAhead:
     """
 
     def __init__(self, scene: Scene, plan: Blueprint) -> None:
-        self.scene, self.plan = scene, plan
+        self.scene = scene
         self.energies = Energies(scene, plan)
         self.harmless = 0.0
 
-    def complaint(self, world: World, dt: float) -> str | None:
+    def complaint(self, near: Nearness, world: World, dt: float) -> str | None:
         """Return who is about to meet too fast for steps of ``dt`` seconds."""
         if not self.energies.constants:
             return None
-        speeds = np.linalg.norm(world.particles.twist[:, V : V + 3], axis=1)
-        closing = 2.0 * float(speeds.max()) + float(np.linalg.norm(world.walls.velocity, axis=1).max(initial=0.0))
+        closing = 2.0 * fastest(world.particles.twist[:, V : V + 3]) + fastest(world.walls.velocity)
         if closing <= self.harmless:
             return None
         if all(self.steps(each, dt) >= LEAST_STEPS for each in self._shortest(1.25 * closing)):
             self.harmless = 1.25 * closing
             return None
-        for meeting in self._meetings(world):
+        for meeting in self._meetings(near, world):
             steps = self.steps(meeting, dt)
             if steps < LEAST_STEPS:
                 return (
@@ -83,11 +88,11 @@ class ImpactsAhead:
             if j in walls:
                 yield Meeting("", (i, j), (r, np.inf), per_mass, speed)
 
-    def _meetings(self, world: World) -> Iterator[Meeting]:
+    def _meetings(self, near: Nearness, world: World) -> Iterator[Meeting]:
         """Yield the near pair whose impact would be the shortest, and everything near walls."""
         particles, body = world.particles, world.particles.body
         radius, v = particles.pose[:, RADIUS], particles.twist[:, V : V + 3]
-        i, j, normal, overlap = near_pairs(world, self.plan)
+        i, j, normal, overlap = near.pairs
         closing = np.einsum("kc,kc->k", v[i] - v[j], normal)
         ahead = np.nonzero((overlap < 0.0) & (closing > 0.0))[0]
         if len(ahead):
@@ -98,9 +103,11 @@ class ImpactsAhead:
             per_mass = float(body[a, INVERSE_MASS] + body[b, INVERSE_MASS])
             radii = (float(radius[a]), float(radius[b]))
             yield Meeting(f"particles {a} and {b}", materials, radii, per_mass, float(closing[k]))
-        for wall, k, towards, overlap_k in at_walls(world, self.scene):
-            speed = float((v[k] - world.walls.velocity[wall]) @ towards)
-            if overlap_k < 0.0 and speed > 0.0:
-                who = f"particle {k} and the wall '{list(self.scene.config.walls)[wall]}'"
-                materials = (int(body[k, MATERIAL]), int(world.walls.material[wall]))
-                yield Meeting(who, materials, (float(radius[k]), np.inf), float(body[k, INVERSE_MASS]), speed)
+        walls, beside, towards, depth = near.walls
+        speed = np.einsum("kc,kc->k", v[beside] - world.walls.velocity[walls], towards)
+        for p in np.nonzero((depth < 0.0) & (speed > 0.0))[0].tolist():
+            one, wall = int(beside[p]), int(walls[p])
+            who = f"particle {one} and the wall '{list(self.scene.config.walls)[wall]}'"
+            materials = (int(body[one, MATERIAL]), int(world.walls.material[wall]))
+            radii = (float(radius[one]), np.inf)
+            yield Meeting(who, materials, radii, float(body[one, INVERSE_MASS]), float(speed[p]))

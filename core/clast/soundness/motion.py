@@ -8,7 +8,8 @@ from clast.engine.blueprint import Blueprint
 from clast.engine.kernels.layout import RADIUS, V, W
 from clast.engine.state import World
 from clast.scene.scene import Scene
-from clast.soundness.near import at_walls, near_pairs
+from clast.soundness.near import Nearness
+from clast.soundness.suspects import suspects
 
 MOST_WAY = 0.5
 """Longest way of a particle in one step, as a share of the smallest radius."""
@@ -18,16 +19,24 @@ DEEPEST = 1.0
 """Largest overlap, as a share of the smaller radius: beyond it a centre lies inside the other body."""
 
 
-def lost(world: World) -> str | None:
-    """Return which particle has no position or velocity any more."""
+def lost(world: World, scene: Scene) -> str | None:
+    """Return which particle has no position or velocity any more, and which laws may have caused it."""
     particles = world.particles
+    if np.isfinite(particles.pose).all() and np.isfinite(particles.twist).all():
+        return None
     numbers = np.isfinite(particles.pose).all(axis=1) & np.isfinite(particles.twist).all(axis=1)
     missing = ~numbers & (particles.present != 0)
-    return f"particle {np.argmax(missing)} is nowhere" if missing.any() else None
+    if not missing.any():
+        return None
+    return f"particle {np.argmax(missing)} is nowhere: {suspects(world, scene, missing)}"
 
 
 def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | None:
     """Return which particle one step of ``dt`` seconds moves or turns too far."""
+    most_way, most_turn = MOST_WAY * scene.radius.min() / dt, MOST_TURN / dt
+    fastest = np.abs(world.particles.twist).max(axis=0)
+    if fastest[V : V + 3].max() <= most_way and fastest[W : W + 3].max() <= most_turn:
+        return None
     twist = np.where(world.particles.present[:, None] != 0, world.particles.twist, 0.0)
     way = np.abs(twist[:, V : V + 3]).max(axis=1) * dt / scene.radius.min()
     k = int(np.argmax(way))
@@ -40,18 +49,20 @@ def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | No
     return None
 
 
-def passed_through(world: World, scene: Scene, plan: Blueprint) -> str | None:
-    """Return which particles overlap so far that one's centre is inside the other body."""
-    if plan.contacts is None or scene.config.contacts is None:
+def passed_through(near: Nearness, world: World, scene: Scene) -> str | None:
+    """Return which particle overlaps so far that one's centre is inside the other body."""
+    if scene.config.contacts is None:
         return None
     deepest = max(DEEPEST, scene.config.contacts.start_overlap)
-    pairs, radius = near_pairs(world, plan), world.particles.pose[:, RADIUS]
-    share = pairs.overlap / np.minimum(radius[pairs.i], radius[pairs.j])
+    (i, j, _, overlap), walls, radius = near.pairs, near.walls, world.particles.pose[:, RADIUS]
+    share = overlap / np.minimum(radius[i], radius[j])
     if len(share) and share.max() > deepest:
         k = int(np.argmax(share))
         told = f"{share[k]:.2g} times the smaller radius"
-        return f"particles {pairs.i[k]} and {pairs.j[k]} overlap by {told}: one is passing through the other"
-    for wall, particle, _, overlap in at_walls(world, scene):
-        if overlap > deepest * radius[particle]:
-            return f"particle {particle} is passing through the wall '{list(scene.config.walls)[wall]}'"
+        return f"particles {i[k]} and {j[k]} overlap by {told}: one is passing through the other"
+    through = walls.overlap > deepest * radius[walls.second]
+    if through.any():
+        k = int(np.argmax(through))
+        name = list(scene.config.walls)[walls.first[k]]
+        return f"particle {walls.second[k]} is passing through the wall '{name}'"
     return None

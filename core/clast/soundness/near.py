@@ -2,60 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.kernels.layout import FIRST, RADIUS, X
 from clast.engine.records import build, width
 from clast.engine.state import Floats, Integers, World
 from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import Touch
-from clast.scene.plan import material_pairs, wall_shapes
+from clast.scene.plan import material_pairs
 from clast.scene.scene import Scene
 
+Gaps = Callable[[World, Floats, Floats], None]
 
-class Pairs(NamedTuple):
-    """Near pairs, one row each: particles i and j, unit vectors from i to j, overlaps in m (gaps are below 0)."""
 
-    i: Integers
-    j: Integers
+class Near(NamedTuple):
+    """Near bodies, one row each: first and second, unit vectors from one to the other, overlaps in m (gaps below 0)."""
+
+    first: Integers
+    second: Integers
     normal: Floats
     overlap: Floats
 
 
-class AtWall(NamedTuple):
-    """A particle near a wall: their numbers, the unit vector to the wall, and the overlap in m (a gap below 0)."""
+class Nearness(NamedTuple):
+    """Pairs of particles i and j whose contact counts, and particles at walls: wall and particle."""
 
-    wall: int
-    particle: int
-    normal: Floats
-    overlap: float
+    pairs: Near
+    walls: Near
 
 
-def near_pairs(world: World, plan: Blueprint) -> Pairs:
-    """Return the near pairs whose contact counts: not those in whose stead a bond holds."""
-    pairs, pose = world.pairs, world.particles.pose
-    counts = (pairs.sides & FIRST) > 0
-    if plan.contacts is None or not plan.contacts.bonded_pairs:
-        counts &= pairs.bond < 0
-    i, j = pairs.first[counts].astype(np.int64), pairs.second[counts].astype(np.int64)
-    d = pose[j, X : X + 3] - pose[i, X : X + 3]
-    distance = np.linalg.norm(d, axis=1)
-    normal = d / np.where(distance > 0.0, distance, 1.0)[:, None]
-    return Pairs(i, j, normal, pose[i, RADIUS] + pose[j, RADIUS] - distance - pairs.rest[counts])
+def look_around(world: World, gaps: Gaps) -> Nearness:
+    """Return how near the bodies on the neighbour lists are; pairs in whose stead a bond holds are left out.
+
+    Parameters
+    ----------
+    world : World
+    gaps : compiled function
+        See :func:`clast.engine.kernels.gaps.gaps`.
+    """
+    pairs, near = world.pairs, world.wall_pairs
+    between, at_walls = np.empty((len(pairs.first), 4)), np.empty((len(near.wall), 4))
+    if len(between) or len(at_walls):
+        gaps(world, between, at_walls)
+    counts = between[:, 3] > -np.inf
+    return Nearness(
+        _near(pairs.first[counts], pairs.second[counts], between[counts]), _near(near.wall, near.particle, at_walls)
+    )
 
 
-def at_walls(world: World, scene: Scene) -> Iterator[AtWall]:
-    """Yield the particles near walls."""
-    near, pose = world.wall_pairs, world.particles.pose
-    shapes = wall_shapes(scene) if len(near.wall) else []
-    for w, k in zip(near.wall.tolist(), near.particle.tolist(), strict=True):
-        nearest, shape = shapes[w]
-        found = nearest(shape, tuple((pose[k, X : X + 3] - world.walls.displacement[w]).tolist()))
-        yield AtWall(w, k, np.array(found.normal), float(pose[k, RADIUS] - found.distance))
+def _near(first: Any, second: Any, found: Floats) -> Near:
+    return Near(first.astype(np.int64), second.astype(np.int64), found[:, :3], found[:, 3])
 
 
 class Energies:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from clast.engine.blueprint import Blueprint
 from clast.engine.state import World
 from clast.scene.scene import Scene
-from clast.soundness.energy import ClosedEnergy
+from clast.soundness.energy import EnergyWatch
 from clast.soundness.impacts import ImpactsAhead
 from clast.soundness.motion import lost, passed_through, too_fast
+from clast.soundness.near import Gaps, look_around
 
 
 class Soundness:
@@ -19,21 +20,28 @@ class Soundness:
     plan : Blueprint
     share : float
         Time step over the limit of the scene at its start.
+    gaps : compiled function
+        See :func:`clast.engine.kernels.gaps.gaps`.
+
+    Attributes
+    ----------
+    energy : EnergyWatch
+        Finds energy from nowhere, at samples.
     """
 
-    def __init__(self, scene: Scene, plan: Blueprint, share: float) -> None:
-        self.scene, self.plan = scene, plan
+    def __init__(self, scene: Scene, plan: Blueprint, share: float, gaps: Gaps) -> None:
+        self.scene, self.plan, self.gaps = scene, plan, gaps
         self.impacts = ImpactsAhead(scene, plan)
-        self.energy = ClosedEnergy(scene, plan, share)
+        self.energy = EnergyWatch(scene, share)
 
     def complaint(self, world: World, dt: float) -> str | None:
         """Return what cannot be followed with steps of ``dt`` seconds; None if all can."""
-        return (
-            self.motion_complaint(world, dt)
-            or passed_through(world, self.scene, self.plan)
-            or self.impacts.complaint(world, dt)
-        )
+        found = self.motion_complaint(world, dt)
+        if found is not None:
+            return found
+        near = look_around(world, self.gaps)
+        return passed_through(near, world, self.scene) or self.impacts.complaint(near, world, dt)
 
     def motion_complaint(self, world: World, dt: float) -> str | None:
         """Return the same of single particles, for which neighbour lists need not be fresh."""
-        return lost(world) or too_fast(world, self.scene, self.plan, dt)
+        return lost(world, self.scene) or too_fast(world, self.scene, self.plan, dt)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast import hookimpl
-from clast.maths.rotation import spin_about, swing
+from clast.maths.rotation import chord, spin_about, swing
 from clast.maths.vec3 import Vec, add, cross, dot, scale, sub
 from clast.parts.bond_kinematics import BondKinematics, BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, Strain
@@ -22,17 +22,18 @@ class Incremental(Params):
 
     Equation
     --------
-    axial = |d| − L0;  Δu = (v_j − v_i − ½(ω_i + ω_j) x d) Δt across the bond;  Δθ = (ω_j − ω_i) Δt
+    axial = |d| − L0;  Δu = (v_j − v_i) Δt − c x d̄ across the bond;  Δθ = (ω_j − ω_i) Δt
 
-    The sums are components along n = d/|d|, e1 and e2 = n x e1. The frame follows the exact swing of n and the mean
-    spin of the ends about it, so nothing that is summed is ever rotated.
+    c is the rotation vector ½(ω_i + ω_j) Δt, made 2 tan(φ/2) long for its angle φ: rigid motion leaves Δu = 0 at any
+    step. A bar is the mean of both ends of the interval Δt between two force evaluations; v and ω are those with which
+    the ends moved in it. The sums are components along n̄ = d/|d|, ē1 and ē2, e2 = n x e1. The frame follows the exact
+    swing of n and the mean spin of the ends about it, so nothing that is summed is ever rotated.
 
     Limits
     ------
-    The sums take the velocities that forces are evaluated with. ``leapfrog`` and ``velocity_verlet`` evaluate with that
-    of the middle of the interval, so the sums are of second order; ``midstep`` with that of its end, so they are of
-    first order (``clast bench --only pair`` shows it). Energy is not exactly conserved. For comparison with other
-    programs; ``total`` is cheaper and more accurate.
+    Of second order with every integrator that moves particles with one velocity from one force evaluation to the next,
+    as all built-in ones do (``clast bench --only pair`` shows it). Energy is not exactly conserved, and the strains
+    are those of ``total`` only while they are small. For comparison with other programs.
 
     Source
     ------
@@ -84,26 +85,34 @@ def start(d: NDArray[np.float64], L0: NDArray[np.float64]) -> State:
 
 
 def measure(motion: BondMotion, ref: Reference, state: State, dt: float) -> tuple[Strain, Frame, State]:
-    """Return strain measures, frame and new sums of a bond."""
+    """Return strain measures, frame and new sums of a bond; increments belong to the middle of the interval."""
     d = motion.d
     length = sqrt(dot(d, d))
     n = scale(1.0 / length, d)
-    mean_spin = scale(0.5, add(motion.w_i, motion.w_j))
-    e1 = spin_about(swing(state.e1, state.n, n), n, dot(mean_spin, n) * dt)
+    turned = chord(scale(0.5, add(motion.w_i, motion.w_j)), dt)
+    mean_n = half_way(state.n, n)
+    e1 = spin_about(swing(state.e1, state.n, n), n, dot(turned, mean_n))
     e2 = cross(n, e1)
-    slip = sub(motion.v, cross(mean_spin, d))
-    turn = sub(motion.w_j, motion.w_i)
+    mean_e1, mean_e2 = half_way(state.e1, e1), half_way(cross(state.n, state.e1), e2)
+    moved = scale(dt, motion.v)
+    slip = sub(moved, cross(turned, sub(d, scale(0.5, moved))))
+    turn = scale(dt, sub(motion.w_j, motion.w_i))
     new = State(
         n=n,
         e1=e1,
-        u1=state.u1 + dot(slip, e1) * dt,
-        u2=state.u2 + dot(slip, e2) * dt,
-        twist=state.twist + dot(turn, n) * dt,
-        b1=state.b1 + dot(turn, e1) * dt,
-        b2=state.b2 + dot(turn, e2) * dt,
+        u1=state.u1 + dot(slip, mean_e1),
+        u2=state.u2 + dot(slip, mean_e2),
+        twist=state.twist + dot(turn, mean_n),
+        b1=state.b1 + dot(turn, mean_e1),
+        b2=state.b2 + dot(turn, mean_e2),
     )
     strain = Strain(length - ref.L0, (0.0, new.u1, new.u2), new.twist, (0.0, new.b1, new.b2))
     return strain, Frame(d, n, e1, e2), new
+
+
+def half_way(a: Vec, b: Vec) -> Vec:
+    """Return the mean of two vectors."""
+    return scale(0.5, add(a, b))
 
 
 def end_loads(load: BondLoad, frame: Frame) -> EndLoads:

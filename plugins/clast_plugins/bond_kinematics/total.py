@@ -39,7 +39,8 @@ class Total(Params):
 
     Limits
     ------
-    Relative rotations of the ends below 180°.
+    Relative rotations of the ends below 180°, where the logarithm jumps to the other side. A bond that is turned
+    farther breaks, whatever its model says, with the mode ``turned``.
 
     Source
     ------
@@ -119,6 +120,14 @@ def measure(motion: BondMotion, ref: Reference, state: None, dt: float) -> tuple
     return strain, Frame(motion.d, R_m, n, ref.n0, ref.L0 * per_length, t, f, h), None
 
 
+def beyond(motion: BondMotion) -> bool:
+    """Tell whether the ends are turned against each other by more than 180°.
+
+    Orientations are integrated from 1 on without a jump, so cos(θ/2) falls below 0 there.
+    """
+    return relative(motion.q_i, motion.q_j)[0] < 0.0
+
+
 def end_loads(load: BondLoad, frame: Frame) -> EndLoads:
     """Return force and moments on the ends: minus the gradient of the bond's energy."""
     n, t = frame.n, frame.t
@@ -146,5 +155,6 @@ def clast_register(registry: Registry) -> None:
             measure=measure,
             end_loads=end_loads,
             needs_orientation=True,
+            beyond=beyond,
         ),
     )

@@ -143,7 +143,7 @@ def contact_radius(touch: Touch) -> float:
 
 def damping_root(touch: Touch) -> float:
     """Return √(a m*), which the damping of both directions has in common."""
-    return sqrt(contact_radius(touch) / touch.inverse_mass)
+    return sqrt(contact_radius(touch) * (1.0 / touch.inverse_mass))
 
 
 def elastic_force(touch: Touch, c: Constants) -> float:

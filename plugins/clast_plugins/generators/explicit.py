@@ -86,20 +86,14 @@ class Explicit(Params):
 
 
 def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[ExplicitBond]) -> Iterator[InitErrorDetails]:
-    seen: dict[frozenset[int], int] = {}
     for k, bond in enumerate(bonds):
         missing = [end for end in bond.between if not 0 <= end < len(particles)]
-        first = seen.setdefault(frozenset(bond.between), k)
         i, j = bond.between
         between = ("bonds", k, "between")
         if missing:
             last = len(particles) - 1
             yield problem(between, f"there is no particle {missing[0]}; the particles are counted from 0 to {last}")
-        elif i == j:
-            yield problem(between, f"connects particle {i} with itself; two different particles are needed")
-        elif first != k:
-            yield problem(between, f"connects particles {i} and {j}, as bonds.{first} does; remove one of them")
-        elif particles[i].position == particles[j].position:
+        elif i != j and particles[i].position == particles[j].position:
             yield problem(
                 ("bonds", k), f"particles {i} and {j} have one centre, so their bond has no direction; move one of them"
             )
@@ -130,6 +124,7 @@ def _bond_list(bonds: Sequence[ExplicitBond]) -> BondList:
         ends=np.array([bond.between for bond in bonds], np.int64).reshape(-1, 2),
         diameter=np.array([bond.diameter for bond in bonds], np.float64),
         length=np.array([math.nan if bond.length is None else bond.length for bond in bonds], np.float64),
+        origin=lambda k: ("bonds", k, "between"),
     )
 
 

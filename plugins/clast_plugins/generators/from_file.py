@@ -81,11 +81,10 @@ def read_bonds(path: Path, particles: ParticleTable) -> BondList:
     Raises
     ------
     ConfigError
-        Every problem with its line: no number, a missing particle, a bond with itself or there already.
+        Every problem with its line: no number, a missing particle, a bond without length.
     """
     table = read_table(path, ("i", "j", "diameter"), ("initial_length",))
     index = {number: at for at, number in enumerate(particles.ids)}
-    new_bond = distinct(table, "a bond between")
     ends: list[tuple[int, int]] = []
     measures: list[tuple[float, float]] = []
     for line, row in table.rows:
@@ -97,15 +96,12 @@ def read_bonds(path: Path, particles: ParticleTable) -> BondList:
         if i is None or j is None:
             continue
         ends.append((i, j))
-        if i == j:
-            table.wrong(line, f"a bond from particle {row['i']} to itself; two different particles are needed")
-            continue
-        new_bond(line, " and ".join(str(particles.ids[end]) for end in sorted((i, j))))
-        if np.array_equal(particles.position[i], particles.position[j]):
+        if i != j and np.array_equal(particles.position[i], particles.position[j]):
             table.wrong(line, f"particles {row['i']} and {row['j']} have one centre, so their bond has no direction")
     table.refuse_problems()
-    found = np.array(measures)
-    return BondList(np.array(ends, np.int64), found[:, 0].copy(), found[:, 1].copy())
+    found, lines = np.array(measures), [line for line, _ in table.rows]
+    pairs = np.array(ends, np.int64)
+    return BondList(pairs, found[:, 0].copy(), found[:, 1].copy(), origin=lambda k: f"{path}:{lines[k]}")
 
 
 def _end(table: Table, line: int, row: dict[str, str], column: str, index: dict[int, int]) -> int | None:

@@ -6,19 +6,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clast import bench_command
-from clast.bench import store
+from clast.bench import following, store
+from clast.bench.following import Following
 from clast.bench.machine import Machine
-from clast.bench.precision.claim import cpu_for, gain, rounded_up, sentence
-from clast.bench.precision.problems import CHAIN, IMPACT, PAIR, PROBLEMS
-from clast.bench.precision.sections import SECTIONS
+from clast.bench.precision.claim import cpu_for, gain, gains, rounded_up, sentence
+from clast.bench.precision.problems import CHAIN, ELASTIC, IMPACT, PAIR, PROBLEMS
+from clast.bench.precision.sections import SECTIONS, verdict
 from clast.bench.precision.sweep import Point, Series, Swept, observed, relative, sweep
 from clast.bench.precision.theory import fitted_order, oscillator_order
 from clast.bench.section import Effort, Task
 from clast.bench.store import Record
 from clast.bench.suite import chosen
+from clast.commands import bench as bench_command
 from clast.errors import ConfigError
 from clast.plugins.discovery import discover
+from clast.simulation import Simulation
 
 THIRD_PARTY = Path(__file__).with_name("third_party.py")
 HERE = Machine("a processor", 2, "some software", 0.0)
@@ -90,11 +92,14 @@ def test_impacts_are_over_at_the_end():
     assert relative(early, late) < 2e-3
 
 
-def test_the_bonded_pair_converges_quadratically():
-    way = {"integrator": "midstep", "bond_kinematics": "total"}
-    fine = observed(PAIR, task(), way, 10240)
-    coarse, half = (relative(observed(PAIR, task(), way, n), fine) for n in (320, 640))
-    assert coarse / half == pytest.approx(4.0, rel=0.1)
+@pytest.mark.parametrize("kinematics", ["total", "incremental"])
+def test_the_bonded_pair_converges_quadratically_to_one_motion_with_every_integrator(kinematics):
+    fine = observed(PAIR, task(), {"integrator": "midstep", "bond_kinematics": kinematics}, 20480)
+    for integrator in ("midstep", "leapfrog", "velocity_verlet"):
+        way = {"integrator": integrator, "bond_kinematics": kinematics}
+        coarse, half, quarter = (relative(observed(PAIR, task(), way, n), fine) for n in (320, 640, 1280))
+        assert coarse / half == pytest.approx(4.0, rel=0.1)
+        assert half / quarter == pytest.approx(4.0, rel=0.1)
 
 
 def test_orders_are_fitted_where_the_reference_can_tell():
@@ -122,6 +127,34 @@ def test_the_claim_compares_where_the_slower_still_gets():
     assert (found.fast.label, found.slow.label, found.error) == ("midstep", "leapfrog", 0.03)
     assert sentence(found) == "At an error of 3 %, midstep needs 3.3 times less CPU time than leapfrog"
     assert rounded_up(2.5e-2) == pytest.approx(0.03)
+
+
+def beside_lammps(*points):
+    other = series(*points, way={}, program="LAMMPS")
+    other.fit()
+    mine = series((10, 1e-3, 0.1), (20, 2.5e-4, 0.2))
+    return Swept(mine.way, 1, 1.0, 1000, [mine, other])
+
+
+def test_what_is_asked_beside_lammps_is_decided_at_every_error_that_both_reach():
+    found = beside_lammps((10, 4e-2, 0.5), (20, 2e-2, 1.0), (40, 1e-2, 2.0), (80, 5e-3, 4.0))
+    assert [each.times for each in gains(found)] == pytest.approx([5.0, 10.0, 20.0, 40.0])
+    assert verdict(found).startswith(" Over the errors that both reach, 4 % to 0.5 %, it is 5.0 to 40 times.")
+    assert verdict(found).endswith("10 times; here met from an error of 2 % down.")
+    slowly = beside_lammps((10, 4e-2, 0.1), (20, 2e-2, 0.2), (40, 1e-2, 0.4))
+    assert verdict(slowly).endswith("here **missed**.")
+
+
+def test_two_runs_beside_lammps_decide_nothing():
+    assert "not decided here" in verdict(beside_lammps((10, 4e-2, 5.0), (20, 2e-2, 9.0)))
+
+
+def test_the_coarsest_step_of_the_elastic_grain_is_the_largest_that_is_stable_to_the_end():
+    coarsest = ELASTIC.steps[0]
+    simulation = Simulation(ELASTIC.scene().changed(ELASTIC.changes({}, coarsest)), 1)
+    simulation.advance_to(coarsest)
+    assert coarsest - ELASTIC.instants < ELASTIC.end / simulation.stable_step() <= coarsest
+    assert ELASTIC.steps == tuple(coarsest * 2**k for k in range(len(ELASTIC.steps)))
 
 
 def test_errors_below_what_the_reference_knows_do_not_count():
@@ -152,6 +185,12 @@ def test_a_failing_section_is_told_and_the_others_go_on(tmp_path):
     told = page.read_text()
     assert "ValueError: no luck today" in told
     assert "midstep needs 3.3 times" in told
+
+
+def test_the_share_of_following_the_stable_step_is_told_beside_its_target():
+    told = [following.text(Following(80_000, 8, looks, 9.0), Path()) for looks in (0.045, 0.18)]
+    assert "0.50 % of the run (target < 1 %: met)" in told[0]
+    assert "2.00 % of the run (target < 1 %: **missed**)" in told[1]
 
 
 def test_results_of_another_kind_are_refused(tmp_path):

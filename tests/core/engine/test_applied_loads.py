@@ -16,8 +16,8 @@ from clast.engine.kernels.layout import V, W, X
 from clast.engine.slots_text import slots_text
 from clast.errors import ConfigError
 from clast.results import checkpoint
+from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
-from clast.scene.scene import build_scene
 from tests.support.strategies import vectors
 
 R = 1e-3

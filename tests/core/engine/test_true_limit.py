@@ -20,8 +20,8 @@ from clast.engine.springs import Bodies, Springs, bodies_at_start, springs_at_st
 from clast.engine.time_step import contact_limit, limits
 from clast.engine.vibration import largest_eigenvalue
 from clast.plugins.discovery import discover
+from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
-from clast.scene.scene import build_scene
 from tests.support.contacts import GLASS, contact
 from tests.support.springs import largest
 from tests.support.strategies import numbers

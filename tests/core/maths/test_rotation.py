@@ -9,9 +9,9 @@ import pytest
 from hypothesis import assume, given, settings
 from scipy.spatial.transform import Rotation
 
-from clast.maths.rotation import IDENTITY, matrix, multiply, relative, rotate_back, spin_about, swing, turn
+from clast.maths.rotation import IDENTITY, chord, matrix, multiply, relative, rotate_back, spin_about, swing, turn
 from clast.maths.rotation import rotate as apply
-from clast.maths.vec3 import cross, dot, norm, scale, sub
+from clast.maths.vec3 import add, cross, dot, norm, scale, sub
 from tests.support.strategies import assert_close, directions, negated, numbers, rotation, rotations, unit, vectors
 
 
@@ -51,6 +51,14 @@ def test_turning_is_as_exact_as_promised(most, tolerance, axis, share, q):
     turned = turn(q, scale(angle / 0.01, axis), 0.01)
     assert_close(turned, multiply(rotation(axis, angle), q), tolerance, 1.0)
     assert math.hypot(*turned) == pytest.approx(1.0, abs=tolerance)
+
+
+@settings(max_examples=60, deadline=None)
+@given(axis=directions(), angle=numbers(0.0, 0.2), a=vectors())
+def test_a_chord_tells_exactly_how_a_vector_changes_as_it_turns(axis, angle, a):
+    turned = apply(matrix(rotation(axis, angle)), a)
+    expected = cross(chord(scale(angle / 0.01, axis), 0.01), scale(0.5, add(a, turned)))
+    assert_close(sub(turned, a), expected, 6e-8 * angle + 1e-15, norm(a))
 
 
 def test_twenty_thousand_small_turns_keep_the_norm():

@@ -97,8 +97,6 @@ def test_a_wrong_table_of_particles_is_told_with_its_line(tmp_path: Path, partic
             "i,j,diameter\n7,9,1e-3\n",
             "b.csv:2: j names particle 9, which the table of particles does not hold",
         ),
-        ("i,j,diameter\n7,7,1e-3\n", "b.csv:2: a bond from particle 7 to itself"),
-        ("i,j,diameter\n7,3,1e-3\n3,7,1e-3\n", "b.csv:3: a bond between 7 and 3 is there already, in line 2"),
         ("i,j,diameter\n7,3,-1e-3\n", "diameter is -1e-3; it must be above 0"),
         ("i,j,diameter,initial_length\n7,3,1e-3,0\n", "initial_length is 0; it must be above 0"),
         ("i,j,diameter\n7,x,1e-3\n", "j is 'x', not an integer"),

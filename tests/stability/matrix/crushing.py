@@ -8,7 +8,8 @@ from clast.config.scene import SceneConfig, build
 from clast.config.yaml_loader import parse_document
 from clast.engine.kernels.layout import V
 from tests.scenes import CRUSH
-from tests.stability.entry import Answer, Entry, Group, Ran
+from tests.stability.entry import STOPPED, Answer, Entry, Group, Ran
+from tests.stability.matrix.steps import UNSTABLE, at_share
 
 
 def crushed(speed: float, strain: float) -> Entry:
@@ -34,11 +35,21 @@ def crushed(speed: float, strain: float) -> Entry:
     return Entry(f"{speed:g} m/s to {strain:.0%} strain", make, judge, short=speed == 10.0)
 
 
+def crushed_unstably(share: float) -> Entry:
+    """Return the same at 1 cm/s with a step above its limit: bonds would break that nothing has loaded."""
+    stable = crushed(0.01, 0.3)
+    name = f"{stable.name}, {share:g} × limit, allow_unstable"
+    return Entry(name, lambda: at_share(stable.scene().changed, share, UNSTABLE), stable.judge, STOPPED, share == 1.1)
+
+
 GROUPS = (
     Group(
         "crushing",
         "Crushing",
         "A grain of 55 primaries of Model 3 between two plates, with masses scaled by 100.",
-        tuple(crushed(speed, 0.3 if speed > 1e-3 else 0.1) for speed in (1e-3, 1e-2, 0.1, 1.0, 10.0)),
+        (
+            *(crushed(speed, 0.3 if speed > 1e-3 else 0.1) for speed in (1e-3, 1e-2, 0.1, 1.0, 10.0)),
+            *map(crushed_unstably, (1.02, 1.1, 1.2, 1.3, 2.0)),
+        ),
     ),
 )

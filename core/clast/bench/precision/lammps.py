@@ -18,10 +18,12 @@ from clast.bench.scenes import NUMBERS, Body
 from clast.bench.section import Effort, Task
 from clast.bench.throughput import PEER
 from clast.engine.state import Floats
-from clast.scene.scene import build_scene
+from clast.scene.build import build_scene
 
 ORDER = 2.0
-FINER = 4
+FINER = 8
+"""Steps of the peer's reference, as a multiple of its finest; with 4 an error of first order would be no more than
+three times as large as what the reference is known to."""
 NEVER = 1e12
 """Strength of a bond that does not break, in Pa."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from clast.bench.precision import lammps
 from clast.bench.precision.ahead import compile_ahead
-from clast.bench.precision.claim import cpu_for, gain, sentence, share
+from clast.bench.precision.claim import cpu_for, gain, gains, sentence, share, times
 from clast.bench.precision.draw import draw
 from clast.bench.precision.problem import Problem
 from clast.bench.precision.problems import PROBLEMS
@@ -58,8 +58,15 @@ def verdict(found: Swept) -> str:
         return f" {found.no_peer}"
     if got is None or got.slow.program == "Clast":
         return ""
-    met = "met" if got.times >= GOAL else "**missed**"
-    return f" Asked for beside LAMMPS on this scene or the other that it can compute: {GOAL:g} times; here {met}."
+    asked = f" Asked for beside LAMMPS on this scene or the other that it can compute: {GOAL:g} times"
+    if got.slow.order is None:
+        return f"{asked}; not decided here: too few steps to tell how the error of LAMMPS falls."
+    ratios = gains(found)
+    low, high = min(each.times for each in ratios), max(each.times for each in ratios)
+    span = f"{share(max(each.error for each in ratios))} to {share(min(each.error for each in ratios))}"
+    reached = [each.error for each in ratios if each.times >= GOAL]
+    met = f"met from an error of {share(max(reached))} down" if reached else "**missed**"
+    return f" Over the errors that both reach, {span}, it is {times(low)} to {times(high)} times.{asked}; here {met}."
 
 
 def orders(found: Swept, error: float | None) -> str:
@@ -96,7 +103,7 @@ def notes(problem: Problem, found: Swept) -> str:
         f"difference from one with half the steps); errors below three times that are not drawn.{copies}"
     )
     if any(series.program != "Clast" for series in found.series):
-        told += " The reference of LAMMPS is LAMMPS itself with four times its finest steps."
+        told += f" The reference of LAMMPS is LAMMPS itself with {lammps.FINER} times its finest steps."
     missing = [f"{series.label}: {series.problem}" for series in found.series if series.problem and series.points]
     return "\n\n".join([told, *missing])
 

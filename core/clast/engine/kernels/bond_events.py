@@ -15,8 +15,11 @@ from .layout import BOND_VISCOUS, DAMPED, FLOWED, LANES, PLASTIC, Q, V, W, X
 from .slots import (
     BOND_DAMPING,
     BOND_FLOW,
+    BOND_LIMIT,
     BOND_ORIENTATION,
     LEDGER,
+    TURNED_MODE,
+    bond_beyond,
     bond_energy,
     bond_load,
     bond_measure,
@@ -135,9 +138,8 @@ def log_crack(
     step: int,
 ) -> None:
     """Write the breaking of one lane's bond into the crack table."""
-    strain, _, _ = bond_measure(
-        read_motion(scratch, lane), read_reference(data, lane), read_kinematic_state(data, lane), 0.0
-    )
+    motion = read_motion(scratch, lane)
+    strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), 0.0)
     constants = read_constants(uniforms, data, lane)
     state = read_bond_state(data, lane)
     load = bond_load(strain, constants, state)
@@ -150,6 +152,8 @@ def log_crack(
     for c in range(3):
         cracks.position[row, c] = 0.5 * (particles.pose[i, X + c] + particles.pose[j, X + c])
     cracks.mode[row] = bond_mode(strain, load, constants, state)
+    if BOND_LIMIT:
+        cracks.mode[row] = TURNED_MODE if bond_beyond(motion) else cracks.mode[row]
     cracks.load[row, 0] = load.normal
     cracks.load[row, 1] = norm(load.shear)
     cracks.load[row, 2] = bond_energy(strain, constants, state)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from clast.engine.compiler import inlined
 from clast.engine.state import Floats, Particles
 from clast.maths.rotation import IDENTITY
-from clast.maths.vec3 import ZERO, across, add, along, cross, dot, norm, scale, sub
+from clast.maths.vec3 import ZERO, Vec, across, add, along, cross, dot, norm, scale, sub
 from clast.parts.bond_kinematics import BondMotion, EndLoads
 
 from .lanes import put, vector
@@ -20,12 +20,13 @@ from .layout import (
     BOND_WI,
     BOND_WJ,
     DAMPED,
-    FIRST,
     FLOWED,
     INDEX,
     LANES,
     OVERLOAD,
-    SECOND,
+    RATE_V,
+    RATE_WI,
+    RATE_WJ,
     F,
     M,
     Q,
@@ -33,15 +34,17 @@ from .layout import (
     W,
     X,
 )
+from .rows import add_to_row, own_ends, take_from_row
 from .slots import (
     BOND_DAMPING,
     BOND_EVENTS,
     BOND_FLOW,
+    BOND_LIMIT,
     BOND_ORIENTATION,
     BOND_VELOCITY,
-    CHUNKED,
     FADE,
     LEDGER,
+    bond_beyond,
     bond_end_loads,
     bond_energy,
     bond_failure,
@@ -63,18 +66,23 @@ from .slots import (
 @inlined
 def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> None:
     """Copy what the kinematics needs of the ends into the scratch table."""
-    pose, seen = particles.pose, particles.seen
+    pose, twist, seen = particles.pose, particles.twist, particles.seen
     for c in range(3):
         scratch[(BOND_D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
     if BOND_ORIENTATION:
         for c in range(4):
             scratch[(BOND_QI + c) * LANES + lane] = pose[i, Q + c]
             scratch[(BOND_QJ + c) * LANES + lane] = pose[j, Q + c]
-    if BOND_VELOCITY:
+    if BOND_VELOCITY:  # with these the ends moved since the forces before, whatever velocity the forces see
         for c in range(3):
-            scratch[(BOND_V + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
-            scratch[(BOND_WI + c) * LANES + lane] = seen[i, W + c]
-            scratch[(BOND_WJ + c) * LANES + lane] = seen[j, W + c]
+            scratch[(BOND_V + c) * LANES + lane] = twist[j, V + c] - twist[i, V + c]
+            scratch[(BOND_WI + c) * LANES + lane] = twist[i, W + c]
+            scratch[(BOND_WJ + c) * LANES + lane] = twist[j, W + c]
+    if BOND_DAMPING:
+        for c in range(3):
+            scratch[(RATE_V + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
+            scratch[(RATE_WI + c) * LANES + lane] = seen[i, W + c]
+            scratch[(RATE_WJ + c) * LANES + lane] = seen[j, W + c]
 
 
 @inlined
@@ -94,15 +102,16 @@ def read_motion(scratch: Floats, lane: int) -> BondMotion:
 
 
 @inlined
-def damped(ends: EndLoads, motion: BondMotion, data: Floats, lane: int) -> tuple[EndLoads, float]:
+def damped(ends: EndLoads, d: Vec, scratch: Floats, data: Floats, lane: int) -> tuple[EndLoads, float]:
     """Add the dashpots of stretching, shearing, twisting and bending; return their power too, 0 for rigid motion."""
     c_n, c_t, c_tor, c_b = read_damping(data, lane)
-    n = scale(1.0 / norm(motion.d), motion.d)
-    slip = sub(motion.v, cross(scale(0.5, add(motion.w_i, motion.w_j)), motion.d))
-    turn_rate = sub(motion.w_j, motion.w_i)
+    w_i, w_j = vector(scratch, RATE_WI, lane), vector(scratch, RATE_WJ, lane)
+    n = scale(1.0 / norm(d), d)
+    slip = sub(vector(scratch, RATE_V, lane), cross(scale(0.5, add(w_i, w_j)), d))
+    turn_rate = sub(w_j, w_i)
     pull = add(scale(c_n, along(slip, n)), scale(c_t, across(slip, n)))
     moment = add(scale(c_tor, along(turn_rate, n)), scale(c_b, across(turn_rate, n)))
-    lever = scale(0.5, cross(motion.d, pull))
+    lever = scale(0.5, cross(d, pull))
     with_dashpots = EndLoads(
         sub(ends.force, pull),
         add(ends.moment_i, add(lever, moment)),
@@ -124,7 +133,7 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     load = bond_load(strain, constants, state)
     ends = bond_end_loads(load, frame)
     if BOND_DAMPING:
-        ends, power = damped(ends, motion, data, lane)
+        ends, power = damped(ends, motion.d, scratch, data, lane)
         if LEDGER:
             scratch[DAMPED * LANES + lane] = dt * power
     if BOND_FLOW and LEDGER:
@@ -135,7 +144,10 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     write_kinematic_state(data, lane, kinematic_state)
     if BOND_FLOW:
         write_bond_state(data, lane, state)
-    data[INDEX * LANES + lane] = bond_failure(strain, load, constants, state)
+    index = bond_failure(strain, load, constants, state)
+    if BOND_LIMIT:
+        index = 1.0 if bond_beyond(motion) else index
+    data[INDEX * LANES + lane] = index
     if BOND_EVENTS:
         scratch[OVERLOAD * LANES + lane] = bond_overload(strain, constants, state)
     put(scratch, BOND_F, lane, ends.force)
@@ -147,15 +159,12 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
 def scatter(particles: Particles, i: int, j: int, sides: int, scratch: Floats, lane: int, share: float) -> None:
     """Add a lane's loads to those of its ends that belong to the chunk."""
     load = particles.load
-    for c in range(3):
-        force = scratch[(BOND_F + c) * LANES + lane]
-        moment_i = scratch[(BOND_MI + c) * LANES + lane]
-        moment_j = scratch[(BOND_MJ + c) * LANES + lane]
-        if FADE:
-            force, moment_i, moment_j = share * force, share * moment_i, share * moment_j
-        if not CHUNKED or sides & FIRST:
-            load[i, F + c] -= force
-            load[i, M + c] += moment_i
-        if not CHUNKED or sides & SECOND:
-            load[j, F + c] += force
-            load[j, M + c] += moment_j
+    force = vector(scratch, BOND_F, lane)
+    moment_i, moment_j = vector(scratch, BOND_MI, lane), vector(scratch, BOND_MJ, lane)
+    if FADE:
+        force, moment_i, moment_j = scale(share, force), scale(share, moment_i), scale(share, moment_j)
+    own_i, own_j = own_ends(sides)
+    take_from_row(load, i, F, force, own_i)
+    add_to_row(load, i, M, moment_i, own_i)
+    add_to_row(load, j, F, force, own_j)
+    add_to_row(load, j, M, moment_j, own_j)

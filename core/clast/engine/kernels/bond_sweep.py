@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from clast.engine.compiler import routine
+from clast.engine.compiler import inlined, routine
 from clast.engine.state import Bonds, Cracks, Floats, Numbers, Particles
 from clast.parts.bond_model import RandomKey
 
+from .ahead import LINE, ask_for
 from .bond_events import book_rates, let_go, log_crack, settle_events
 from .bond_lane import bond_lane, gather, scatter
 from .layout import BROKEN, DROPS, FIRST, INDEX, INTACT, LANES, OVERLOAD
 from .slots import BOND_EVENTS, CHUNKED, LEDGER, read_uniforms
+
+
+@inlined
+def ask_for_bond(bonds: Bonds, b: int, lane: int, particles: Particles) -> None:
+    """Ask for a lane's share of a block of bonds, and for its second end; the first ends come in order."""
+    slots = bonds.data.shape[1] // LANES
+    for slot in range(0, slots, LINE):
+        ask_for(bonds.data, (b * LANES + lane) * slots + slot)
+    j = int(bonds.second[b, lane])
+    ask_for(particles.pose, LINE * j)
+    ask_for(particles.load, LINE * j)
 
 
 @routine
@@ -30,6 +42,8 @@ def sweep_bonds(
         first, second, sides, data = bonds.first[b], bonds.second[b], bonds.sides[b], bonds.data[b]
         for lane in range(LANES):
             gather(particles, first[lane], second[lane], scratch, lane)
+            if CHUNKED:
+                ask_for_bond(bonds, min(b + 1, len(bonds.first) - 1), lane, particles)
         for lane in range(LANES):
             bond_lane(scratch, data, lane, uniforms, dt)
         for lane in range(LANES):

@@ -1,4 +1,4 @@
-"""Elastic energies, at the positions of the full step: state functions of the laws, computed when asked."""
+"""Energies that a scene holds, at one time: state functions of the laws, computed when asked."""
 
 from __future__ import annotations
 
@@ -6,20 +6,38 @@ import numpy as np
 
 from clast.engine.compiler import compiled, inlined
 from clast.engine.state import Floats, Pairs, Particles, WallPairs, Walls, World
-from clast.maths.vec3 import dot, sub
+from clast.maths.vec3 import dot, scale, sub
 from clast.parts.contact_law import Touch
 
 from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
-from .contact_sweep import HISTORY_BASE, gather, joined, meet, read_touch
+from .contact_lane import HISTORY_BASE, gather, read_touch
+from .contact_sweep import joined, meet
 from .lanes import row, vector
-from .layout import BOND_SCRATCH, FIRST, INTACT, LANES, MATERIAL, NORMAL, RADIUS, X
+from .layout import (
+    BOND_SCRATCH,
+    ENERGY,
+    FIRST,
+    INTACT,
+    INVERSE_INERTIA,
+    INVERSE_MASS,
+    LANES,
+    MATERIAL,
+    NORMAL,
+    RADIUS,
+    V,
+    W,
+    X,
+)
+from .motion import drift, turn_all
 from .slots import (
     BONDED_PAIRS_TOUCH,
     BONDS,
     CHOICES,
     CONTACTS,
     HISTORY,
+    LAG,
+    ORIENTATION,
     STAGES,
     WALLS,
     bond_energy,
@@ -47,26 +65,70 @@ SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 
 @compiled
 def energies(world: World, moving: bool, found: Floats) -> None:
-    """Write the elastic energies in J into ``found``: of contacts, and of bonds.
+    """Write the energies in J into ``found``: kinetic, of contacts, of bonds; at the time that velocities belong to.
 
     Parameters
     ----------
     world : World
     moving : bool
         Whether a step was taken; else nothing has moved since the forces.
-    found : (2,) float64
+    found : (3,) float64
     """
-    time = SINCE_FORCES * world.numbers.dt if moving else 0.0
+    back = -LAG * world.numbers.dt
+    time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
     scratch = np.empty(max(BOND_SCRATCH, HISTORY_BASE + HISTORY + 1) * LANES)
-    found[0] = found[1] = 0.0
+    poses, displacements = world.particles.pose.copy(), world.walls.displacement.copy()
+    if LAG != 0.0:
+        go_back(world, scratch, back)
+    found[0] = kinetic_energy(world.particles, world.numbers.dt)
+    found[1], found[2] = elastic_energies(world, scratch, time)
+    if LAG != 0.0:
+        world.particles.pose[:] = poses
+        world.walls.displacement[:] = displacements
+
+
+@inlined
+def go_back(world: World, scratch: Floats, time: float) -> None:
+    """Move everything to where it was some time ago, no longer than velocities have been what they are."""
+    particles, walls = world.particles, world.walls
+    for k in range(len(particles.pose)):
+        drift(particles, k, -time)
+    if ORIENTATION:
+        turn_all(particles, 0, len(particles.pose), scratch, -time)
+    for w in range(len(walls.shape_kind)):
+        for c in range(3):
+            walls.displacement[w, c] -= time * walls.velocity[w, c]
+
+
+@inlined
+def elastic_energies(world: World, scratch: Floats, time: float) -> tuple[float, float]:
+    """Return the elastic energies of contacts and of bonds, some time after the last force evaluation."""
+    contacts = bonds = 0.0
     if CONTACTS:
         for k in range(len(world.pairs.first)):
-            found[0] += pair_energy(world, world.pairs, k, scratch, time)
+            contacts += pair_energy(world, world.pairs, k, scratch, time)
     if WALLS:
         for p in range(len(world.wall_pairs.wall)):
-            found[0] += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time)
+            contacts += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time)
     if BONDS:
-        found[1] = energy_of_bonds(world, scratch)
+        bonds = energy_of_bonds(world, scratch)
+    return contacts, bonds
+
+
+@inlined
+def kinetic_energy(particles: Particles, dt: float) -> float:
+    """Return the kinetic energy in J of all particles that forces can move, scaled masses included.
+
+    Taken as ½ m (v − ½ a dt)·(v + ½ a dt): the mean velocities of the steps before and after. A vibration whose period
+    spans few steps keeps its energy in this form; ½ m v² alone exceeds it by (ω dt)²/4.
+    """
+    twist, change, body, total = particles.twist, particles.acceleration, particles.body, 0.0
+    for k in range(len(twist)):
+        for inverse, first in ((INVERSE_MASS, V), (INVERSE_INERTIA, W)):
+            if body[k, inverse] > 0.0:
+                v, half = row(twist, k, first), scale(0.5 * dt, row(change, k, first))
+                total += 0.5 / body[k, inverse] * (dot(v, v) - dot(half, half))
+    return total
 
 
 @inlined
@@ -77,16 +139,23 @@ def energy_of_bonds(world: World, scratch: Floats) -> float:
     for b in range(len(bonds.first)):
         data = bonds.data[b]
         for lane in range(LANES):
-            share = data[INTACT * LANES + lane]
-            if share == 0.0 or not bonds.sides[b, lane] & FIRST:
-                continue
             gather_ends(world.particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
-            motion = read_motion(scratch, lane)
-            strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), 0.0)
-            constants = read_constants(uniforms, data, lane)
-            state = bond_flow(strain, constants, read_bond_state(data, lane))
-            total += share * bond_energy(strain, constants, state)
+        for lane in range(LANES):  # always all: a loop of fixed length vectorises
+            energy_of_lane(data, scratch, lane, uniforms)
+        for lane in range(LANES):
+            if bonds.sides[b, lane] & FIRST and data[INTACT * LANES + lane] > 0.0:
+                total += data[INTACT * LANES + lane] * scratch[ENERGY * LANES + lane]
     return total
+
+
+@inlined
+def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[float, ...]) -> None:
+    """Write the elastic energy of a lane's bond."""
+    motion = read_motion(scratch, lane)
+    strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), 0.0)
+    constants = read_constants(uniforms, data, lane)
+    state = bond_flow(strain, constants, read_bond_state(data, lane))
+    scratch[ENERGY * LANES + lane] = bond_energy(strain, constants, state)
 
 
 @inlined
@@ -101,12 +170,12 @@ def energy_of(touch: Touch, constants, history, time: float) -> float:  # type: 
 def pair_energy(world: World, pairs: Pairs, k: int, scratch: Floats, time: float) -> float:
     """Return the elastic energy of pair k, 0 where it does not touch."""
     particles, numbers = world.particles, world.numbers
-    if not pairs.sides[k] & FIRST or not meet(particles, pairs, k, scratch, 0):
+    if not pairs.sides[k] & FIRST or not meet(particles, pairs, k, numbers, scratch, 0):
         return 0.0
     if not BONDED_PAIRS_TOUCH and joined(pairs, world.bonds, k):
         return 0.0
     gather(particles, pairs, k, numbers, scratch, 0)
-    touch, _, _, _ = read_touch(scratch, 0, time, numbers.lever)
+    touch, _, _, _ = read_touch(scratch, 0, numbers, time)
     history = read_history(scratch, HISTORY_BASE, 0)
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, touch.normal) + dot(touch.spin_j, touch.normal)) * time

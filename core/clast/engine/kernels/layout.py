@@ -21,19 +21,21 @@ FIRST, SECOND = 1, 2
 # scratch of the bond sweep
 BOND_D, BOND_QI, BOND_QJ, BOND_V, BOND_WI, BOND_WJ = 0, 3, 7, 11, 14, 17
 BOND_F, BOND_MI, BOND_MJ, OVERLOAD, DAMPED, FLOWED = 20, 23, 26, 29, 30, 31
-BOND_SCRATCH = 32
+RATE_V, RATE_WI, RATE_WJ = 32, 35, 38  # velocities at the instant of the forces, for dashpots
+BOND_SCRATCH = 41
+ENERGY = BOND_F  # where loads are not computed
 
 # scratch of the contact sweep
 D, RI, RJ, IM, II, REST, DV, WI, WJ, NORMAL = 0, 3, 4, 5, 6, 7, 8, 11, 14, 17
 CONTACT_F, CONTACT_MI, CONTACT_MJ, DRIFT, TURNING, LOST, DRAG, TURNED, CONTACT_FREE = 20, 23, 26, 29, 32, 35, 39, 42, 45
 
 # energy ledger, in J: what contacts (in the order of ContactLosses) and bonds dissipate, the work done on the scene,
-# what left with particles, and what was there at the start
+# what left with particles, what was there at the start, and what contacts hold that appear as bonds break
 VISCOUS, SLIDING, ROLLING, STIFFENING = 0, 1, 2, 3
 BOND_VISCOUS, PLASTIC, DROPS, BROKEN = 4, 5, 6, 7
 WALL_WORK, DRIVEN_WORK, APPLIED_WORK, BODY_WORK = 8, 9, 10, 11
-LEFT, START = 12, 13
-TERMS = 14
+LEFT, START, WOKEN = 12, 13, 14
+TERMS = 15
 
 # scratch of turning
 TURN_Q, TURN_W = 0, 4

@@ -26,10 +26,10 @@ from .layout import (
     W,
     X,
 )
+from .rows import set_first_half, set_half_row, set_row
 from .slots import (
     APPLIED_LOADS,
     BODY_FORCES,
-    LEDGER,
     ORIENTATION,
     SPIN,
     VELOCITY_FORCES,
@@ -41,17 +41,16 @@ from .slots import (
 @inlined
 def kick(particles: Particles, k: int, time: float) -> None:
     """Change the velocity and spin of particle k by its acceleration over some time."""
-    twist, acceleration = particles.twist, particles.acceleration
-    for c in range(8 if SPIN else 4):
-        twist[k, c] += time * acceleration[k, c]
+    if SPIN:
+        set_row(particles.twist, k, particles.twist, time, particles.acceleration)
+    else:
+        set_first_half(particles.twist, k, particles.twist, time, particles.acceleration)
 
 
 @inlined
 def drift(particles: Particles, k: int, time: float) -> None:
     """Move particle k with its velocity over some time."""
-    pose, twist = particles.pose, particles.twist
-    for c in range(4):
-        pose[k, X + c] += time * twist[k, V + c]
+    set_first_half(particles.pose, k, particles.pose, time, particles.twist)
 
 
 @routine
@@ -83,9 +82,10 @@ def turn_lane(scratch: Floats, lane: int, time: float) -> None:
 @inlined
 def predict(particles: Particles, k: int, time: float) -> None:
     """Set the velocity and spin that the forces on particle k will see."""
-    twist, acceleration, seen = particles.twist, particles.acceleration, particles.seen
-    for c in range(8 if SPIN else 4):
-        seen[k, c] = twist[k, c] + time * acceleration[k, c]
+    if SPIN:
+        set_row(particles.seen, k, particles.twist, time, particles.acceleration)
+    else:
+        set_first_half(particles.seen, k, particles.twist, time, particles.acceleration)
 
 
 @inlined
@@ -161,10 +161,9 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
     """Turn loads and body forces on particle k into accelerations."""
     load, acceleration = particles.load, particles.acceleration
     per_mass, per_inertia = particles.body[k, INVERSE_MASS], particles.body[k, INVERSE_INERTIA]
-    for c in range(4):
-        acceleration[k, F + c] = per_mass * load[k, F + c]
-        if SPIN:
-            acceleration[k, M + c] = per_inertia * load[k, M + c]
+    set_half_row(acceleration, k, F, per_mass, load)
+    if SPIN:
+        set_half_row(acceleration, k, M, per_inertia, load)
     if BODY_FORCES and per_mass > 0.0:
         g = body_force(particles, k, numbers, time)
         for c in range(3):
@@ -187,8 +186,7 @@ def move_after_forces(
     dt = numbers.dt
     for k in range(begin, end):
         accelerate(particles, k, numbers, time)
-        if LEDGER:
-            book_outside_work(particles, k, numbers, time, book, span)
+        book_outside_work(particles, k, numbers, time, book, span)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)
         if stage.drift_after != 0.0:

@@ -9,7 +9,7 @@ from clast.engine.state import Floats, World
 from clast.maths.vec3 import norm
 
 from .bond_lane import gather, read_motion
-from .layout import FIRST, INTACT, LANES
+from .layout import BOND_SCRATCH, FIRST, INTACT, LANES
 from .slots import (
     BONDS,
     bond_energy,
@@ -38,7 +38,7 @@ def observe(world: World, output: Floats) -> None:
     """
     if BONDS:
         bonds, particles = world.bonds, world.particles
-        scratch = np.empty(32 * LANES)
+        scratch = np.empty(BOND_SCRATCH * LANES)
         uniforms = read_uniforms(world.numbers.bond_uniforms)
         for b in range(len(bonds.first)):
             data = bonds.data[b]

@@ -9,6 +9,7 @@ from clast.parts.integrator import Stage
 
 STAGES = (Stage(0.0, 0.5, 0.0, 1.0, 0.5),)
 SPANS = (1.0,)  # time since the last force evaluation, as a fraction of the step
+LAG = 0.0  # how much later than positions velocities belong at the end of a step, as a fraction of the step
 CHOICES: Any = None
 
 CHUNKED = False
@@ -18,10 +19,13 @@ BOND_VELOCITY = False
 BOND_DAMPING = False
 BOND_EVENTS = False
 BOND_FLOW = False
+BOND_LIMIT = False
+TURNED_MODE = 0
 FADE = False
 CONTACTS = False
 BONDED_PAIRS_TOUCH = True
 ONE_MATERIAL = True
+ONE_SIZE = True
 RESTS = False
 WALLS = False
 BODY_FORCES = False
@@ -44,7 +48,7 @@ def nothing(*args: Any) -> Any:
 
 
 bond_measure = bond_end_loads = bond_load = bond_flow = bond_failure = bond_mode = bond_energy = nothing
-bond_overload = bond_on_event = reflected = nothing
+bond_overload = bond_on_event = bond_beyond = reflected = nothing
 read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
 contact_load = contact_energy = contact_losses = read_contact_constants = row_constants = nothing

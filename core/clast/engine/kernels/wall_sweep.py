@@ -28,7 +28,6 @@ from .slots import (
     CHOICES,
     CONTACT_LOSSES,
     HISTORY,
-    LEDGER,
     REMEMBERS,
     SPIN,
     VELOCITY_FORCES,
@@ -134,6 +133,5 @@ def sweep_walls(
             for c in range(3):
                 pairs.history[p, 3 + HISTORY + c] = lost.drag[c]
         pairs.touching[p] = 1
-    if LEDGER:
-        for w in range(len(walls.shape_kind)):
-            book[WALL_WORK] -= dt * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))
+    for w in range(len(walls.shape_kind)):
+        book[WALL_WORK] -= dt * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from clast import writing
 from clast.config.scene import load
 from clast.errors import RunError
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import open_run
-from clast.writing_process import chosen_writers
+from clast.writing import launch
+from clast.writing.process import chosen_writers
 
 
 def write(folder: Path, names: Sequence[str] = ()) -> None:
@@ -27,7 +27,7 @@ def write(folder: Path, names: Sequence[str] = ()) -> None:
     if not names:
         known = ", ".join(scene.registry.names("writer"))
         raise RunError(f"{folder}: its scene names no writer; name one or several: {known}")
-    written = writing.write(folder, names, lambda name: print(f"writing {name}", flush=True))
+    written = launch.write(folder, names, lambda name: print(f"writing {name}", flush=True))
     for outcome in written.values():
         if outcome.path is not None:
             print(f"  {outcome.path}")

@@ -78,11 +78,11 @@ def _one_process(folder: Path, drafts: Path, names: Sequence[str], starts: Calla
 
 @contextmanager
 def _drawing(folder: Path, drafts: Path, names: Sequence[str]) -> Iterator[subprocess.Popen[str]]:
-    """Start :mod:`clast.writing_process`; end it with all it started when something comes between.
+    """Start :mod:`clast.writing.process`; end it with all it started when something comes between.
 
     It finds modules where this process does, and hears no Ctrl-C of its own: a session apart gets none.
     """
-    command = [sys.executable, "-P", "-m", "clast.writing_process", str(folder), str(drafts), *names]
+    command = [sys.executable, "-P", "-m", "clast.writing.process", str(folder), str(drafts), *names]
     around = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, env=around, start_new_session=True

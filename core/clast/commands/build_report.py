@@ -8,18 +8,19 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint
-from clast.engine.neighbours import choose_slack, find_pairs
+from clast.engine.neighbours import choose_skin, choose_slack, find_pairs
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import World
 from clast.engine.tables import empty_pairs
 from clast.engine.time_step import Limits, choose_step, limits, ruling
 from clast.parts.generator import BondList
+from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
-from clast.scene.plan import blueprint, build_world
-from clast.scene.scene import Scene, build_scene
+from clast.scene.plan import blueprint
+from clast.scene.scene import Scene
 from clast.scene.start import check_start
-from clast.simulation import choose_skin
+from clast.scene.world import build_world
 
 Rows = list[tuple[str, str]]
 LIMIT_NAMES = {

@@ -1,4 +1,4 @@
-"""The process that draws, started by :mod:`clast.writing`: ``python -m clast.writing_process RUN DRAFTS NAME ...``.
+"""The process that draws: ``python -m clast.writing.process RUN DRAFTS NAME ...``, as :mod:`clast.writing.launch` says.
 
 On its standard output it tells in lines of JSON what it does: ``[name]`` when a writer starts, ``[name, path, reason]``
 when it ends. What writers print themselves goes to standard error.

@@ -86,8 +86,9 @@ class Lines(Listener):
         scene = simulation.scene
         left = simulation.last_step - simulation.step
         self.say(f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left:,} steps of {simulation.dt:.3g} s")
-        if simulation.crew.told:
-            self.say(simulation.crew.told)
+        for line in (simulation.crew.told, simulation.keeper.warning):
+            if line:
+                self.say(line)
         seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)
         for line in time_concerns(simulation.config, left, seconds):
             self.say(line)
@@ -183,6 +184,8 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         rows.append(("energy ledger", sentence(summary["energy"])))
     rate = summary["steps_per_s"]
     rows.append(("steps", steps_text(summary)))
+    if summary["time_step_warning"]:
+        rows.append(("WARNING", summary["time_step_warning"]))
     if summary.get("particles_made_heavier"):
         share = summary["added_mass_share_of_kinetic_energy"]
         text = f"{summary['particles_made_heavier']} particles, {summary['added_mass_kg']:.3g} kg more in all"

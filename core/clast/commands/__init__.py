@@ -1,0 +1,1 @@
+"""Commands: what `clast run`, `check --build`, `verify`, `bench`, `write` and `view` do and print."""

@@ -1,0 +1,60 @@
+"""How near bodies are: directions and overlaps of everything on the neighbour lists, computed when asked."""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from clast.engine.compiler import compiled, inlined
+from clast.engine.state import Floats, World
+from clast.maths.vec3 import Vec, dot, sub
+
+from .contact_sweep import joined
+from .lanes import row
+from .layout import FIRST, RADIUS, X
+from .slots import BONDED_PAIRS_TOUCH, CONTACTS, WALLS, wall_nearest
+
+
+@compiled
+def gaps(world: World, between: Floats, at_walls: Floats) -> None:
+    """Write where near bodies are and how far they overlap.
+
+    Parameters
+    ----------
+    world : World
+    between : (p, 4) float64
+        For each pair the unit vector from i to j and the overlap in m, below 0 for a gap; the overlap is −∞ where the
+        pair does not count: in rows that another chunk has too, and where a bond holds in the contact's stead.
+    at_walls : (q, 4) float64
+        For each particle near a wall the unit vector to the wall, and the overlap in m.
+    """
+    if CONTACTS:
+        for k in range(len(world.pairs.first)):
+            counts = world.pairs.sides[k] & FIRST != 0
+            if not BONDED_PAIRS_TOUCH:
+                counts = counts and not joined(world.pairs, world.bonds, k)
+            write_pair(world, k, counts, between)
+    if WALLS:
+        for p in range(len(world.wall_pairs.wall)):
+            w, k = world.wall_pairs.wall[p], world.wall_pairs.particle[p]
+            x = sub(row(world.particles.pose, k, X), row(world.walls.displacement, w, 0))
+            near = wall_nearest(world.walls.shape_kind[w], world.walls.shape[w], x)
+            write(at_walls, p, near.normal, world.particles.pose[k, RADIUS] - near.distance)
+
+
+@inlined
+def write_pair(world: World, k: int, counts: bool, found: Floats) -> None:
+    """Write direction and overlap of pair k."""
+    pose, i, j = world.particles.pose, world.pairs.first[k], world.pairs.second[k]
+    d = sub(row(pose, j, X), row(pose, i, X))
+    distance = sqrt(dot(d, d))
+    per_distance = 1.0 / distance if distance > 0.0 else 1.0
+    overlap = pose[i, RADIUS] + pose[j, RADIUS] - distance - world.pairs.rest[k] if counts else -inf
+    write(found, k, (per_distance * d[0], per_distance * d[1], per_distance * d[2]), overlap)
+
+
+@inlined
+def write(found: Floats, k: int, normal: Vec, overlap: float) -> None:
+    """Write one row."""
+    for c in range(3):
+        found[k, c] = normal[c]
+    found[k, 3] = overlap

@@ -1,0 +1,170 @@
+"""World: the tables that a scene runs on, at its start."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from clast.config.beside import WallChoice
+from clast.engine.blueprint import Blueprint
+from clast.engine.cache_lines import on_line, on_lines
+from clast.engine.chunks import cut
+from clast.engine.kernels.layout import (
+    BOND_SCRATCH,
+    CONTACT_FREE,
+    INVERSE_INERTIA,
+    INVERSE_MASS,
+    LANES,
+    RADIUS,
+    TERMS,
+)
+from clast.engine.records import fields, leaves, numbers, width
+from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
+from clast.engine.tables import (
+    bond_table,
+    crack_table,
+    empty_pairs,
+    empty_wall_pairs,
+    no_bonds,
+    particle_tables,
+)
+from clast.scene.plan import applied_loads, damping_coefficients, material_pairs, wall_shapes
+from clast.scene.scene import Scene
+
+
+def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
+    """Return the tables of a scene at its start, neighbour lists still empty."""
+    chunks = cut(len(scene.radius), scene.ends)
+    bonds, uniforms = _bonds(scene, plan, chunks)
+    particles = particle_tables(
+        scene.position,
+        scene.radius,
+        scene.mass,
+        scene.velocity,
+        scene.spin,
+        scene.material,
+        scene.prescribed,
+        weights(scene),
+        applied_loads(scene),
+    )
+    return World(
+        particles=on_lines(particles),
+        bonds=on_lines(bonds),
+        pairs=empty_pairs(chunks, plan.remembered),
+        wall_pairs=empty_wall_pairs(plan.remembered),
+        walls=_walls(scene, plan),
+        cracks=crack_table(chunks, scene.ends),
+        numbers=_numbers(scene, plan, uniforms, particles, dt, skin),
+        clock=np.zeros(4, np.int64),
+        chunks=chunks,
+        stale=np.zeros(len(chunks), np.uint8),
+        scratch=on_line(np.zeros((len(chunks) - 1, _scratch_slots(plan) * LANES))),
+        ledger=np.zeros((len(chunks), TERMS)),
+    )
+
+
+def weights(scene: Scene) -> Floats:
+    """Return the share of its mass that body forces act on, (n,): below 1 where a particle was made heavier."""
+    if scene.config.time.selective_mass_scaling is None:
+        return np.ones(len(scene.radius))
+    return scene.true_mass * scene.config.time.mass_scaling / scene.mass
+
+
+def _scratch_slots(plan: Blueprint) -> int:
+    if plan.contacts is None:
+        return BOND_SCRATCH
+    return max(BOND_SCRATCH, CONTACT_FREE + width(plan.contacts.law.Constants) + width(plan.history) + 1)
+
+
+def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, particles: Particles, dt: float, skin: float) -> Numbers:
+    config = scene.config
+    body = [
+        value
+        for chosen in config.body_forces
+        for value in numbers(chosen.part.numbers(chosen.params, config.time.mass_scaling))
+    ]
+    seed = getattr(config.bonds.model.params, "seed", 0) if config.bonds else 0
+    return Numbers(
+        bond_uniforms=uniforms,
+        contact_table=_contact_table(scene, plan),
+        body=np.array(body, float),
+        dt=dt,
+        seed=int(seed),
+        wall_reach2=(0.5 * skin) ** 2,
+        radius=float(particles.pose[0, RADIUS]),
+        inverse_mass=float(particles.body[0, INVERSE_MASS]),
+        inverse_inertia=float(particles.body[0, INVERSE_INERTIA]),
+        lever=0.0 if config.contacts and config.contacts.lever == "radius" else 1.0,
+        start_kick=float(config.integrator.part.start_kick(config.integrator.params)),
+        fade=1.0 / (1 + (config.bonds.fade_steps if config.bonds else 0)),
+        first_step=0,
+        first_time=0.0,
+        late=0.0,
+    )
+
+
+def _bonds(scene: Scene, plan: Blueprint, chunks: Indices) -> tuple[Bonds, Floats]:
+    config = scene.config.bonds
+    if plan.bonds is None or config is None:
+        return no_bonds(chunks), np.zeros(0)
+    d, kinematics = scene.bond_vectors, plan.bonds.kinematics
+    constants = config.model.part.constants(config.model.params, scene.bond_geometry)
+    start = kinematics.start(d, scene.length) if kinematics.start is not None else None
+    damping = damping_coefficients(scene) if plan.bonds.damping else np.zeros((len(d), 4))
+    reference = kinematics.reference(d, scene.length)
+    table = bond_table(plan.bonds, chunks, scene.ends, reference, constants, start, damping)
+    shared = [
+        np.ravel(v)
+        for f, v in zip(fields(type(constants)), leaves(constants), strict=True)
+        if np.ndim(v) < (1 if f.size == 1 else 2)
+    ]
+    return table, np.concatenate([*shared, np.zeros(0)]).astype(float)
+
+
+def _contact_table(scene: Scene, plan: Blueprint) -> Floats:
+    count = len(scene.config.materials)
+    if plan.contacts is None or scene.config.contacts is None:
+        return np.zeros((count, count, 0))
+    law, chosen = plan.contacts.law, scene.config.contacts.law
+    table = np.zeros((count, count, width(law.Constants)))
+    for i, j, pair in material_pairs(scene):
+        row = numbers(law.constants(chosen.params, pair))
+        table[i, j] = row
+        table[j, i] = row
+    return table
+
+
+def relieve(scene: Scene, pairs: Pairs) -> None:
+    """Let the overlaps that relieved particles start with count as undeformed."""
+    i, j = pairs.first.astype(np.int64), pairs.second.astype(np.int64)
+    distance = np.linalg.norm(scene.position[i] - scene.position[j], axis=1)
+    overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
+    pairs.rest[:] = np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0)
+
+
+def _walls(scene: Scene, plan: Blueprint) -> Walls:
+    chosen = list(scene.config.walls.values())
+    names = list(scene.config.materials)
+    shapes = [numbers(shape) for _, shape in wall_shapes(scene)]
+    courses = [numbers(w.motion.part.course(w.motion.params)) if w.motion else [] for w in chosen]
+    centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
+    still = [np.zeros((len(chosen), 3)) for _ in range(7)]
+    return Walls(
+        np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
+        _table(shapes),
+        np.array([_motion_kind(plan, wall) for wall in chosen], np.int64),
+        _table(courses),
+        np.array([names.index(wall.material) for wall in chosen], np.int64),
+        np.array(centres, float).reshape(-1, 3),
+        *still,
+    )
+
+
+def _motion_kind(plan: Blueprint, wall: WallChoice) -> int:
+    return len(plan.motions) if wall.motion is None else plan.motions.index(wall.motion.part)
+
+
+def _table(rows: list[list[float]]) -> Floats:
+    table = np.zeros((len(rows), max([0, *map(len, rows)])))
+    for k, row in enumerate(rows):
+        table[k, : len(row)] = row
+    return table
