@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from clast.run_command import summary_rows
 
 from clast import Simulation, load, run_scene
+from clast.commands.run import summary_rows
 from clast.config.scene import SceneConfig
 from clast.errors import RunError
 from clast.soundness.energy import Balance
