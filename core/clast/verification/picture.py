@@ -20,8 +20,7 @@ STYLE = {
     "axes.linewidth": 0.8,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "legend.framealpha": 0.85,
-    "legend.edgecolor": "none",
+    "legend.frameon": False,
     "legend.fontsize": 7.5,
 }
 LINE_COLOURS = ("#2166ac", "#7f8792", "#1b7837", "#762a83", "#8c510a", "#01665e")
@@ -29,6 +28,9 @@ LINE_STYLES = ("-", "--", "-.", ":")
 DOT_COLOURS = ("#b2182b", "#e08214", "#4d4d4d", "#5aae61", "#9970ab", "#35978f")
 ACROSS = 3
 """Most panels in a row."""
+
+BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.22), "ncols": 2, "borderaxespad": 0.0}
+"""Where legends stand: below their panels, so that they hide nothing."""
 
 SHORT = 100.0
 """Ratio of the ends of a logarithmic axis below which it counts as short."""
@@ -71,7 +73,7 @@ def draw_panel(axis: Any, sketch: Sketch) -> None:
             label_plainly(each)
     if sketch.round:
         axis.set_aspect("equal", adjustable="datalim")
-    axis.legend()
+    axis.legend(**BELOW)
 
 
 def label_plainly(axis: Any) -> None:
