@@ -71,6 +71,13 @@ def test_a_crush_with_breakage_friction_and_damping_closes(tmp_path: Path, model
     assert abs(ledger.closure) < 1e-4
 
 
+def test_a_crush_closes_with_strains_that_are_summed_up(tmp_path: Path) -> None:
+    settings = [LEDGER, "time.step=1e-7 s", "time.end.strain=0.15", "bonds.kinematics=incremental"]
+    simulation = ended(tmp_path, CRUSH, settings)
+    assert simulation.bonds_broken > 10
+    assert abs(simulation.ledger().closure) < 1e-4
+
+
 def test_an_impact_loses_the_share_of_its_kinetic_energy_that_restitution_tells(tmp_path: Path) -> None:
     simulation = ended(tmp_path, COLLISION, [LEDGER])
     ledger = simulation.ledger()

@@ -135,7 +135,7 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     if BOND_DAMPING:
         ends, power = damped(ends, motion.d, scratch, data, lane)
         if LEDGER:
-            scratch[DAMPED * LANES + lane] = dt * power
+            scratch[DAMPED * LANES + lane] = power
     if BOND_FLOW and LEDGER:
         # the flow is half over when the strain is half-way: as much before the new state as beyond it
         beyond = reflected(before, state)

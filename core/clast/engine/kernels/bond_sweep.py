@@ -7,10 +7,10 @@ from clast.engine.state import Bonds, Cracks, Floats, Numbers, Particles
 from clast.parts.bond_model import RandomKey
 
 from .ahead import LINE, ask_for
-from .bond_events import book_rates, let_go, log_crack, settle_events
+from .bond_events import let_go, log_crack, settle_events
 from .bond_lane import bond_lane, gather, scatter
-from .layout import BROKEN, DROPS, FIRST, INDEX, INTACT, LANES, OVERLOAD
-from .slots import BOND_EVENTS, CHUNKED, LEDGER, read_uniforms
+from .layout import BOND_VISCOUS, BROKEN, DAMPED, DROPS, FIRST, FLOWED, INDEX, INTACT, LANES, OVERLOAD, PLASTIC
+from .slots import BOND_DAMPING, BOND_EVENTS, BOND_FLOW, CHUNKED, LEDGER, read_uniforms
 
 
 @inlined
@@ -52,8 +52,8 @@ def sweep_bonds(
                 continue
             i, j = first[lane], second[lane]
             own = not CHUNKED or sides[lane] & FIRST != 0  # what two chunks keep is told by one
-            if LEDGER and own:
-                book_rates(book, scratch, lane, share)
+            if LEDGER and BOND_FLOW and own:
+                book[PLASTIC] += share * scratch[FLOWED * LANES + lane]
             if BOND_EVENTS and scratch[OVERLOAD * LANES + lane] > 1.0 and data[INDEX * LANES + lane] < 1.0:
                 key = RandomKey(numbers.seed, bonds.number[b, lane])
                 freed = settle_events(particles, i, j, scratch, data, lane, uniforms, key, dt)
@@ -70,4 +70,6 @@ def sweep_bonds(
                 data[INTACT * LANES + lane] = share
                 if share == 0.0:
                     continue
+            if LEDGER and BOND_DAMPING and own:  # of the load that acts: a bond that let go takes up nothing any more
+                book[BOND_VISCOUS] += share * dt * scratch[DAMPED * LANES + lane]
             scatter(particles, i, j, sides[lane], scratch, lane, share)

@@ -111,7 +111,7 @@ def elastic_energies(world: World, scratch: Floats, time: float) -> tuple[float,
         for p in range(len(world.wall_pairs.wall)):
             contacts += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time)
     if BONDS:
-        bonds = energy_of_bonds(world, scratch)
+        bonds = energy_of_bonds(world, scratch, time)
     return contacts, bonds
 
 
@@ -132,8 +132,11 @@ def kinetic_energy(particles: Particles, dt: float) -> float:
 
 
 @inlined
-def energy_of_bonds(world: World, scratch: Floats) -> float:
-    """Return the elastic energy of all bonds; those that let go slowly count with the share of load they have left."""
+def energy_of_bonds(world: World, scratch: Floats, time: float) -> float:
+    """Return the elastic energy of all bonds; those that let go slowly count with the share of load they have left.
+
+    Strains that are summed up over the steps are taken on to the time of the positions, and not kept.
+    """
     bonds, total = world.bonds, 0.0
     uniforms = read_uniforms(world.numbers.bond_uniforms)
     for b in range(len(bonds.first)):
@@ -141,7 +144,7 @@ def energy_of_bonds(world: World, scratch: Floats) -> float:
         for lane in range(LANES):
             gather_ends(world.particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
         for lane in range(LANES):  # always all: a loop of fixed length vectorises
-            energy_of_lane(data, scratch, lane, uniforms)
+            energy_of_lane(data, scratch, lane, uniforms, time)
         for lane in range(LANES):
             if bonds.sides[b, lane] & FIRST and data[INTACT * LANES + lane] > 0.0:
                 total += data[INTACT * LANES + lane] * scratch[ENERGY * LANES + lane]
@@ -149,10 +152,10 @@ def energy_of_bonds(world: World, scratch: Floats) -> float:
 
 
 @inlined
-def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[float, ...]) -> None:
-    """Write the elastic energy of a lane's bond."""
+def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[float, ...], time: float) -> None:
+    """Write the elastic energy of a lane's bond some time after its forces were evaluated."""
     motion = read_motion(scratch, lane)
-    strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), 0.0)
+    strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), time)
     constants = read_constants(uniforms, data, lane)
     state = bond_flow(strain, constants, read_bond_state(data, lane))
     scratch[ENERGY * LANES + lane] = bond_energy(strain, constants, state)
