@@ -71,10 +71,15 @@ def test_a_crush_with_breakage_friction_and_damping_closes(tmp_path: Path, model
     assert abs(ledger.closure) < 1e-4
 
 
-def test_a_crush_closes_with_strains_that_are_summed_up(tmp_path: Path) -> None:
-    settings = [LEDGER, "time.step=1e-7 s", "time.end.strain=0.15", "bonds.kinematics=incremental"]
-    simulation = ended(tmp_path, CRUSH, settings)
+@pytest.mark.parametrize(
+    "changes",
+    [["bonds.kinematics=incremental"], ["bonds.damping=0.1"], ["bonds.damping=0.1", "integrator=leapfrog"]],
+    ids=["incremental", "damped", "damped, leapfrog"],
+)
+def test_a_crush_closes_however_its_bonds_are_measured_and_damped(tmp_path: Path, changes: list[str]) -> None:
+    simulation = ended(tmp_path, CRUSH, [LEDGER, "time.step=1e-7 s", "time.end.strain=0.15", *changes])
     assert simulation.bonds_broken > 10
+    assert (simulation.ledger().bond_viscous > 0.0) == ("bonds.damping=0.1" in changes)
     assert abs(simulation.ledger().closure) < 1e-4
 
 

@@ -7,10 +7,11 @@ from clast.engine.state import Bonds, Cracks, Floats, Numbers, Particles
 from clast.parts.bond_model import RandomKey
 
 from .ahead import LINE, ask_for
+from .bond_dashpots import dashpot_heat
 from .bond_events import let_go, log_crack, settle_events
 from .bond_lane import bond_lane, gather, scatter
-from .layout import BOND_VISCOUS, BROKEN, DAMPED, DROPS, FIRST, FLOWED, INDEX, INTACT, LANES, OVERLOAD, PLASTIC
-from .slots import BOND_DAMPING, BOND_EVENTS, BOND_FLOW, CHUNKED, LEDGER, read_uniforms
+from .layout import BOND_VISCOUS, BROKEN, DROPS, FIRST, FLOWED, INDEX, INTACT, LANES, OVERLOAD, PLASTIC
+from .slots import BOND_BOOKS, BOND_EVENTS, BOND_FLOW, CHUNKED, LEDGER, read_uniforms
 
 
 @inlined
@@ -68,8 +69,8 @@ def sweep_bonds(
                     book[BROKEN] += (share - left) * let_go(particles, i, j, data, lane, uniforms, dt)
                 share = left
                 data[INTACT * LANES + lane] = share
-                if share == 0.0:
-                    continue
-            if LEDGER and BOND_DAMPING and own:  # of the load that acts: a bond that let go takes up nothing any more
-                book[BOND_VISCOUS] += share * dt * scratch[DAMPED * LANES + lane]
-            scatter(particles, i, j, sides[lane], scratch, lane, share)
+            if BOND_BOOKS:
+                heat = dashpot_heat(particles, i, j, scratch, data, lane, share, dt)
+                book[BOND_VISCOUS] += heat if own else 0.0
+            if share > 0.0:
+                scatter(particles, i, j, sides[lane], scratch, lane, share)
