@@ -227,14 +227,16 @@ class Simulation:
     def bond_loads(self) -> Floats:
         """Return what every bond carries now, (m, 8); columns as in ``kernels.observe``."""
         output = np.zeros((len(self.scene.ends), BOND_COLUMNS))
-        self.kernel.observe(self.world, output)
+        with readable_errors(self.plan):
+            self.kernel.observe(self.world, output)
         return output
 
     def ledger(self) -> Ledger:
         """Return where all energy is now; losses are only known with ``output.ledger``."""
-        held = np.zeros(3)
-        self.kernel.energies(self.world, self.step > 0, held)
-        return read_ledger(self.world, *held.tolist())
+        found = np.zeros(8)
+        with readable_errors(self.plan):
+            self.kernel.energies(self.world, self.step > 0, found)
+        return read_ledger(self.world, found)
 
     def note_start(self) -> None:
         """Note the energy at the start, with which :attr:`soundness` begins."""

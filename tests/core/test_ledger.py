@@ -71,6 +71,29 @@ def test_a_crush_with_breakage_friction_and_damping_closes(tmp_path: Path, model
     assert abs(ledger.closure) < 1e-4
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [["bonds.kinematics=incremental"], ["bonds.damping=0.1"], ["bonds.damping=0.1", "integrator=leapfrog"]],
+    ids=["incremental", "damped", "damped, leapfrog"],
+)
+def test_a_crush_closes_however_its_bonds_are_measured_and_damped(tmp_path: Path, changes: list[str]) -> None:
+    simulation = ended(tmp_path, CRUSH, [LEDGER, "time.step=1e-7 s", "time.end.strain=0.15", *changes])
+    assert simulation.bonds_broken > 10
+    assert (simulation.ledger().bond_viscous > 0.0) == ("bonds.damping=0.1" in changes)
+    assert abs(simulation.ledger().closure) < 1e-4
+
+
+@pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
+def test_the_ledger_closes_amid_a_damped_impact_too(tmp_path: Path, integrator: str) -> None:
+    """Half of the last step is not booked yet at its end: 2e-3 of the energy, were it left out."""
+    simulation = Simulation(load(write(tmp_path, COLLISION), [LEDGER, f"integrator={integrator}"]))
+    closures = []
+    while simulation.step < simulation.last_step:
+        simulation.advance_to(simulation.step + 10)
+        closures.append(simulation.ledger().closure)
+    assert np.abs(closures).max() < 1e-4
+
+
 def test_an_impact_loses_the_share_of_its_kinetic_energy_that_restitution_tells(tmp_path: Path) -> None:
     simulation = ended(tmp_path, COLLISION, [LEDGER])
     ledger = simulation.ledger()

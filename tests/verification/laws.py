@@ -6,6 +6,8 @@ from clast import hookimpl
 from clast.parts.params import Params
 from clast.plugins.discovery import discover
 from clast_plugins.bond_models.beam import beam_stiffness
+from clast_plugins.bond_models.elastic import energy as elastic_energy
+from clast_plugins.contact_laws.hertz_mindlin import energy as hertz_energy
 
 CLAST_API = 1
 FAITHFUL = discover().get("contact_law", "hertz_mindlin").part
@@ -55,6 +57,18 @@ def too_soft_sideways(params, pair):
     return c._replace(G=0.98 * c.G)
 
 
+def too_little_energy(touch, c, history, chosen):
+    return 0.98 * hertz_energy(touch, c, history, chosen)
+
+
+def beyond_the_compiler(touch, c, history, chosen):
+    return FAITHFUL.energy(touch, c, history, chosen)
+
+
+def too_much_energy(strain, c, state):
+    return 1.02 * elastic_energy(strain, c, state)
+
+
 class Nameless(Params):
     """A bond that is told neither E nor ν."""
 
@@ -89,4 +103,8 @@ def clast_register(registry):
     registry.bond_model("too_strong", replace(BOND, constants=too_strong))
     registry.contact_law("too_rough", replace(FAITHFUL, constants=too_rough))
     registry.contact_law("pushing", replace(FAITHFUL, constants=pushing))
+    registry.contact_law("too_little_energy", replace(FAITHFUL, energy=too_little_energy))
+    registry.contact_law("beyond_the_compiler", replace(FAITHFUL, energy=beyond_the_compiler))
+    registry.contact_law("silent", replace(FAITHFUL, losses=None))
+    registry.bond_model("too_much_energy", replace(BOND, energy=too_much_energy))
     registry.contact_law("too_soft_sideways", replace(FAITHFUL, constants=too_soft_sideways))

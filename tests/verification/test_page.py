@@ -3,11 +3,16 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from clast.cli import main
 from clast.verification.page import line, marked
+from clast.verification.picture import draw_panel
+from clast.verification.sketch import Line, Sketch
 from clast.verification.suite import FAMILIES
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -40,3 +45,13 @@ def test_the_published_page_shows_every_case(family):
         assert f"\n| {case.name} | " in page
     assert " failed" not in page.split("\n\n")[2]
     assert (DOCS / "img" / f"verification_{family.name}.png").read_bytes().startswith(PNG)
+
+
+def test_no_legend_hides_what_a_panel_shows():
+    figure = Figure(layout="constrained")
+    FigureCanvasAgg(figure)
+    axis = figure.subplots()
+    x = np.linspace(0.0, 1.0, 5)
+    draw_panel(axis, Sketch("title", "x", "y", tuple(Line(f"line {k}", x, k * x) for k in range(6))))
+    figure.draw_without_rendering()
+    assert not axis.get_legend().get_window_extent().overlaps(axis.get_window_extent())

@@ -76,6 +76,24 @@ def test_a_stiffness_wrong_by_2_percent_is_caught():
     assert len(failed("too_stiff", "chung_ooi_2")) == 6
 
 
+@pytest.mark.parametrize(("kind", "law"), [("contact-law", "too_little_energy"), ("bond-model", "too_much_energy")])
+def test_an_energy_wrong_by_2_percent_is_caught_by_the_ledger(kind, law):
+    assert failed(law, "run_ledger", f"--{kind}") == {"energy missing or too much: largest share"}
+
+
+def test_an_energy_that_cannot_be_compiled_is_told_with_its_file():
+    result = verify("run_ledger", "--plugin", LAWS, "--contact-law", "beyond_the_compiler")
+    assert result.exit_code == 1
+    assert "laws.py:" in result.output
+    assert "cannot be compiled" in result.output
+    assert isinstance(result.exception, SystemExit)
+
+
+def test_a_law_that_does_not_tell_its_losses_has_no_ledger_to_close():
+    result = verify("run_ledger", "--plugin", LAWS, "--contact-law", "silent", "--json")
+    assert json.loads(result.stdout)[0]["verdict"] == "not applicable"
+
+
 def test_a_damping_wrong_by_2_percent_is_caught():
     wrong = failed("underdamped", "chung_ooi_3")
     assert "v'/v at e = 0.2, 400 steps per contact" in wrong

@@ -27,6 +27,8 @@ class BondPlan:
         For each number of the model's constants, whether all bonds share it.
     damping, fade : bool
         Whether dashpots act, and whether breaking bonds let go over several steps.
+    books : bool
+        Whether a bond keeps the loads of its dashpots until the next force evaluation, for the energy ledger.
     """
 
     model: BondModel
@@ -34,6 +36,7 @@ class BondPlan:
     uniform: tuple[bool, ...]
     damping: bool = False
     fade: bool = False
+    books: bool = False
 
     @property
     def crack_modes(self) -> tuple[str, ...]:

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from clast.engine.kernels.layout import (
     APPLIED_WORK,
     BODY_WORK,
@@ -110,9 +113,18 @@ class Ledger(NamedTuple):
         return self.error / self.turnover if self.turnover > 0.0 else 0.0
 
 
-def read_ledger(world: World, kinetic: float, contact_elastic: float, bond_elastic: float) -> Ledger:
-    """Return the ledger of a world whose energies in J are known."""
+def read_ledger(world: World, energies: NDArray[np.float64]) -> Ledger:
+    """Return the ledger of a world.
+
+    Parameters
+    ----------
+    world : World
+    energies : (8,) float64
+        What the kernel's ``energies`` tells: what is stored, and what was lost and done since the last booking.
+    """
+    kinetic, contact_elastic, bond_elastic = energies[:3].tolist()
     booked = world.ledger.sum(axis=0)
+    booked[[VISCOUS, SLIDING, ROLLING, STIFFENING, WALL_WORK]] += energies[3:]
     return Ledger(
         walls=float(booked[WALL_WORK]),
         driven=float(booked[DRIVEN_WORK]),

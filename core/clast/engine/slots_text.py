@@ -49,6 +49,7 @@ def bond_offsets(plan: BondPlan) -> dict[str, int]:
         "reference": width(plan.kinematics.Reference),
         "constants": sum(not shared for shared in plan.uniform),
         "damping": 4 if plan.damping else 0,
+        "drag": 6 if plan.books else 0,
         "kinematic_state": width(plan.kinematics.State),
         "state": width(plan.model.State),
     }
@@ -67,6 +68,8 @@ def _flags(plan: Blueprint) -> str:
         "BOND_ORIENTATION": plan.orientation,
         "BOND_VELOCITY": plan.bond_velocity,
         "BOND_DAMPING": bonds is not None and bonds.damping,
+        "BOND_BOOKS": bonds is not None and bonds.books,
+        "BOND_DRAG": bond_offsets(bonds)["drag"] if bonds is not None else 0,
         "BOND_EVENTS": bonds is not None and bonds.model.on_event is not None,
         "BOND_FLOW": bonds is not None and bonds.model.flow is not None,
         "BOND_LIMIT": bonds is not None and bonds.kinematics.beyond is not None,

@@ -49,8 +49,14 @@ def _bond_plan(scene: Scene) -> BondPlan | None:
         for f, v in zip(fields(type(record)), leaves(record), strict=True)
         for _ in range(f.size)
     ]
+    damping = config.damping > 0.0
     return BondPlan(
-        config.model.part, config.kinematics.part, tuple(uniform), config.damping > 0.0, config.fade_steps > 0
+        config.model.part,
+        config.kinematics.part,
+        tuple(uniform),
+        damping,
+        fade=config.fade_steps > 0,
+        books=damping and scene.config.output.ledger,
     )
 
 

@@ -39,6 +39,15 @@ def sticks(scene: SceneConfig) -> str | None:
     return f"{law.name!r} remembers nothing of a contact, so it has no friction that can hold"
 
 
+def losses(scene: SceneConfig) -> str | None:
+    """Ask for a contact law that tells what it dissipates."""
+    assert scene.contacts is not None
+    law = scene.contacts.law
+    if law.part.losses is not None:
+        return None
+    return f"{law.name!r} does not tell what it dissipates (it has no 'losses')"
+
+
 def full_restitution(scene: SceneConfig) -> str | None:
     """Ask that damped contacts may pull, without which the coefficient of restitution is not reached exactly."""
     assert scene.contacts is not None

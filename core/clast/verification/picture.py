@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import matplotlib as mpl
@@ -20,8 +21,7 @@ STYLE = {
     "axes.linewidth": 0.8,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "legend.framealpha": 0.85,
-    "legend.edgecolor": "none",
+    "legend.frameon": False,
     "legend.fontsize": 7.5,
 }
 LINE_COLOURS = ("#2166ac", "#7f8792", "#1b7837", "#762a83", "#8c510a", "#01665e")
@@ -29,6 +29,15 @@ LINE_STYLES = ("-", "--", "-.", ":")
 DOT_COLOURS = ("#b2182b", "#e08214", "#4d4d4d", "#5aae61", "#9970ab", "#35978f")
 ACROSS = 3
 """Most panels in a row."""
+
+BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.22), "borderaxespad": 0.0}
+"""Where legends stand: below their panels, so that they hide nothing."""
+
+LONG = 22
+"""Characters from which on a label takes a row of its own."""
+
+TALL = 32
+"""Characters of a label that go beside an axis."""
 
 SHORT = 100.0
 """Ratio of the ends of a logarithmic axis below which it counts as short."""
@@ -39,7 +48,7 @@ def draw(sketches: Sequence[Sketch], file: Path) -> None:
     across = 2 if len(sketches) == 4 else min(ACROSS, len(sketches))
     down = -(-len(sketches) // across)
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(3.7 * across, 3.0 * down), layout="constrained")
+        figure = Figure(figsize=(3.7 * across, 3.3 * down), layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.subplots(down, across, squeeze=False).ravel()
         for axis, sketch in zip(axes, sketches, strict=False):
@@ -63,7 +72,7 @@ def draw_panel(axis: Any, sketch: Sketch) -> None:
             axis.plot(line.x, line.y, style, color=colour, linewidth=1.3, label=line.label)
     axis.set_title(sketch.title)
     axis.set_xlabel(sketch.x_label)
-    axis.set_ylabel(sketch.y_label)
+    axis.set_ylabel(fill(sketch.y_label, TALL))
     if sketch.logarithmic:
         axis.set_xscale("log")
         axis.set_yscale("log")
@@ -71,7 +80,7 @@ def draw_panel(axis: Any, sketch: Sketch) -> None:
             label_plainly(each)
     if sketch.round:
         axis.set_aspect("equal", adjustable="datalim")
-    axis.legend()
+    axis.legend(ncols=1 if max(len(line.label) for line in sketch.lines) > LONG else 2, **BELOW)
 
 
 def label_plainly(axis: Any) -> None:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Cracks, Floats, Particles
 from clast.maths.rotation import IDENTITY, turn
-from clast.maths.vec3 import ZERO, norm, scale, sub
+from clast.maths.vec3 import norm, scale, sub
 from clast.parts.bond_kinematics import BondMotion
 from clast.parts.bond_model import RandomKey, Strain
 
 from .bond_lane import bond_lane, read_motion
 from .lanes import row
-from .layout import BOND_VISCOUS, DAMPED, FLOWED, LANES, PLASTIC, Q, V, W, X
+from .layout import Q, V, W, X
 from .slots import (
-    BOND_DAMPING,
-    BOND_FLOW,
     BOND_LIMIT,
     BOND_ORIENTATION,
     LEDGER,
@@ -44,10 +42,9 @@ def strain_before(particles: Particles, i: int, j: int, data: Floats, lane: int,
     if BOND_ORIENTATION:
         q_i = turn(quaternion(pose, i), row(twist, i, W), -time)
         q_j = turn(quaternion(pose, j), row(twist, j, W), -time)
-    d = sub(row(pose, j, X), row(pose, i, X))
-    back = scale(time, sub(row(twist, j, V), row(twist, i, V)))
-    motion = BondMotion(sub(d, back), q_i, q_j, ZERO, ZERO, ZERO)
-    strain: Strain = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), 0.0)[0]
+    d, v = sub(row(pose, j, X), row(pose, i, X)), sub(row(twist, j, V), row(twist, i, V))
+    motion = BondMotion(sub(d, scale(time, v)), q_i, q_j, v, row(twist, i, W), row(twist, j, W))
+    strain: Strain = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), -time)[0]
     return strain
 
 
@@ -112,15 +109,6 @@ def settle_events(
         freed: float = bond_energy(half_way, constants, before) - bond_energy(half_way, constants, state)
         return freed
     return 0.0
-
-
-@inlined
-def book_rates(book: Floats, scratch: Floats, lane: int, share: float) -> None:
-    """Book what a lane's dashpots and its flow have taken up in this step."""
-    if BOND_DAMPING:
-        book[BOND_VISCOUS] += share * scratch[DAMPED * LANES + lane]
-    if BOND_FLOW:
-        book[PLASTIC] += share * scratch[FLOWED * LANES + lane]
 
 
 @routine

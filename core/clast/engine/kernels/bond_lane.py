@@ -5,9 +5,10 @@ from __future__ import annotations
 from clast.engine.compiler import inlined
 from clast.engine.state import Floats, Particles
 from clast.maths.rotation import IDENTITY
-from clast.maths.vec3 import ZERO, Vec, across, add, along, cross, dot, norm, scale, sub
-from clast.parts.bond_kinematics import BondMotion, EndLoads
+from clast.maths.vec3 import ZERO, scale
+from clast.parts.bond_kinematics import BondMotion
 
+from .bond_dashpots import damped
 from .lanes import put, vector
 from .layout import (
     BOND_D,
@@ -19,7 +20,6 @@ from .layout import (
     BOND_V,
     BOND_WI,
     BOND_WJ,
-    DAMPED,
     FLOWED,
     INDEX,
     LANES,
@@ -54,7 +54,6 @@ from .slots import (
     bond_overload,
     read_bond_state,
     read_constants,
-    read_damping,
     read_kinematic_state,
     read_reference,
     reflected,
@@ -102,25 +101,6 @@ def read_motion(scratch: Floats, lane: int) -> BondMotion:
 
 
 @inlined
-def damped(ends: EndLoads, d: Vec, scratch: Floats, data: Floats, lane: int) -> tuple[EndLoads, float]:
-    """Add the dashpots of stretching, shearing, twisting and bending; return their power too, 0 for rigid motion."""
-    c_n, c_t, c_tor, c_b = read_damping(data, lane)
-    w_i, w_j = vector(scratch, RATE_WI, lane), vector(scratch, RATE_WJ, lane)
-    n = scale(1.0 / norm(d), d)
-    slip = sub(vector(scratch, RATE_V, lane), cross(scale(0.5, add(w_i, w_j)), d))
-    turn_rate = sub(w_j, w_i)
-    pull = add(scale(c_n, along(slip, n)), scale(c_t, across(slip, n)))
-    moment = add(scale(c_tor, along(turn_rate, n)), scale(c_b, across(turn_rate, n)))
-    lever = scale(0.5, cross(d, pull))
-    with_dashpots = EndLoads(
-        sub(ends.force, pull),
-        add(ends.moment_i, add(lever, moment)),
-        add(ends.moment_j, sub(lever, moment)),
-    )
-    return with_dashpots, dot(pull, slip) + dot(moment, turn_rate)
-
-
-@inlined
 def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, ...], dt: float) -> None:
     """Compute the bond of one lane: loads on its ends, new state, failure index, overload."""
     motion = read_motion(scratch, lane)
@@ -133,9 +113,7 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     load = bond_load(strain, constants, state)
     ends = bond_end_loads(load, frame)
     if BOND_DAMPING:
-        ends, power = damped(ends, motion.d, scratch, data, lane)
-        if LEDGER:
-            scratch[DAMPED * LANES + lane] = dt * power
+        ends = damped(ends, motion.d, scratch, data, lane)
     if BOND_FLOW and LEDGER:
         # the flow is half over when the strain is half-way: as much before the new state as beyond it
         beyond = reflected(before, state)

@@ -7,10 +7,11 @@ from clast.engine.state import Bonds, Cracks, Floats, Numbers, Particles
 from clast.parts.bond_model import RandomKey
 
 from .ahead import LINE, ask_for
-from .bond_events import book_rates, let_go, log_crack, settle_events
+from .bond_dashpots import dashpot_heat
+from .bond_events import let_go, log_crack, settle_events
 from .bond_lane import bond_lane, gather, scatter
-from .layout import BROKEN, DROPS, FIRST, INDEX, INTACT, LANES, OVERLOAD
-from .slots import BOND_EVENTS, CHUNKED, LEDGER, read_uniforms
+from .layout import BOND_VISCOUS, BROKEN, DROPS, FIRST, FLOWED, INDEX, INTACT, LANES, OVERLOAD, PLASTIC
+from .slots import BOND_BOOKS, BOND_EVENTS, BOND_FLOW, CHUNKED, LEDGER, read_uniforms
 
 
 @inlined
@@ -52,8 +53,8 @@ def sweep_bonds(
                 continue
             i, j = first[lane], second[lane]
             own = not CHUNKED or sides[lane] & FIRST != 0  # what two chunks keep is told by one
-            if LEDGER and own:
-                book_rates(book, scratch, lane, share)
+            if LEDGER and BOND_FLOW and own:
+                book[PLASTIC] += share * scratch[FLOWED * LANES + lane]
             if BOND_EVENTS and scratch[OVERLOAD * LANES + lane] > 1.0 and data[INDEX * LANES + lane] < 1.0:
                 key = RandomKey(numbers.seed, bonds.number[b, lane])
                 freed = settle_events(particles, i, j, scratch, data, lane, uniforms, key, dt)
@@ -68,6 +69,8 @@ def sweep_bonds(
                     book[BROKEN] += (share - left) * let_go(particles, i, j, data, lane, uniforms, dt)
                 share = left
                 data[INTACT * LANES + lane] = share
-                if share == 0.0:
-                    continue
-            scatter(particles, i, j, sides[lane], scratch, lane, share)
+            if BOND_BOOKS:
+                heat = dashpot_heat(particles, i, j, scratch, data, lane, share, dt)
+                book[BOND_VISCOUS] += heat if own else 0.0
+            if share > 0.0:
+                scatter(particles, i, j, sides[lane], scratch, lane, share)

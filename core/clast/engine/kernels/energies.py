@@ -6,7 +6,7 @@ import numpy as np
 
 from clast.engine.compiler import compiled, inlined
 from clast.engine.state import Floats, Pairs, Particles, WallPairs, Walls, World
-from clast.maths.vec3 import dot, scale, sub
+from clast.maths.vec3 import ZERO, Vec, dot, scale, sub
 from clast.parts.contact_law import Touch
 
 from .bond_lane import gather as gather_ends
@@ -16,6 +16,7 @@ from .contact_sweep import joined, meet
 from .lanes import row, vector
 from .layout import (
     BOND_SCRATCH,
+    DRAG,
     ENERGY,
     FIRST,
     INTACT,
@@ -25,6 +26,10 @@ from .layout import (
     MATERIAL,
     NORMAL,
     RADIUS,
+    ROLLING,
+    SLIDING,
+    STIFFENING,
+    VISCOUS,
     V,
     W,
     X,
@@ -34,6 +39,7 @@ from .slots import (
     BONDED_PAIRS_TOUCH,
     BONDS,
     CHOICES,
+    CONTACT_LOSSES,
     CONTACTS,
     HISTORY,
     LAG,
@@ -46,6 +52,7 @@ from .slots import (
     carry_history,
     contact_energy,
     contact_load,
+    contact_losses,
     fresh_history,
     load_history,
     read_bond_state,
@@ -62,17 +69,24 @@ from .wall_sweep import wall_touch
 SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 """Time since the last force evaluation when a step is over, as a fraction of the step."""
 
+LATEST, WALLS_DID = 3, 4
+"""Where losses since the last force evaluation begin among the energies, and the place of the work of walls there."""
+
 
 @compiled
 def energies(world: World, moving: bool, found: Floats) -> None:
-    """Write the energies in J into ``found``: kinetic, of contacts, of bonds; at the time that velocities belong to.
+    """Add the energies in J to ``found``: kinetic, of contacts, of bonds; at the time that velocities belong to.
+
+    What contacts dissipate and walls do since the last force evaluation, after which nothing is booked, follows: the
+    losses in the order of ``ContactLosses``, the work of walls.
 
     Parameters
     ----------
     world : World
     moving : bool
         Whether a step was taken; else nothing has moved since the forces.
-    found : (3,) float64
+    found : (8,) float64
+        Zeros.
     """
     back = -LAG * world.numbers.dt
     time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
@@ -81,7 +95,9 @@ def energies(world: World, moving: bool, found: Floats) -> None:
     if LAG != 0.0:
         go_back(world, scratch, back)
     found[0] = kinetic_energy(world.particles, world.numbers.dt)
-    found[1], found[2] = elastic_energies(world, scratch, time)
+    found[1], found[2] = elastic_energies(world, scratch, time, found[LATEST:])
+    for w in range(len(world.walls.shape_kind)):
+        found[LATEST + WALLS_DID] -= time * dot(row(world.walls.force, w, 0), row(world.walls.velocity, w, 0))
     if LAG != 0.0:
         world.particles.pose[:] = poses
         world.walls.displacement[:] = displacements
@@ -101,17 +117,17 @@ def go_back(world: World, scratch: Floats, time: float) -> None:
 
 
 @inlined
-def elastic_energies(world: World, scratch: Floats, time: float) -> tuple[float, float]:
-    """Return the elastic energies of contacts and of bonds, some time after the last force evaluation."""
+def elastic_energies(world: World, scratch: Floats, time: float, lost: Floats) -> tuple[float, float]:
+    """Return the elastic energies of contacts and of bonds, some time after the last force evaluation; add losses."""
     contacts = bonds = 0.0
     if CONTACTS:
         for k in range(len(world.pairs.first)):
-            contacts += pair_energy(world, world.pairs, k, scratch, time)
+            contacts += pair_energy(world, world.pairs, k, scratch, time, lost)
     if WALLS:
         for p in range(len(world.wall_pairs.wall)):
-            contacts += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time)
+            contacts += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time, lost)
     if BONDS:
-        bonds = energy_of_bonds(world, scratch)
+        bonds = energy_of_bonds(world, scratch, time)
     return contacts, bonds
 
 
@@ -132,8 +148,11 @@ def kinetic_energy(particles: Particles, dt: float) -> float:
 
 
 @inlined
-def energy_of_bonds(world: World, scratch: Floats) -> float:
-    """Return the elastic energy of all bonds; those that let go slowly count with the share of load they have left."""
+def energy_of_bonds(world: World, scratch: Floats, time: float) -> float:
+    """Return the elastic energy of all bonds; those that let go slowly count with the share of load they have left.
+
+    Strains that are summed up over the steps are taken on to the time of the positions, and not kept.
+    """
     bonds, total = world.bonds, 0.0
     uniforms = read_uniforms(world.numbers.bond_uniforms)
     for b in range(len(bonds.first)):
@@ -141,7 +160,7 @@ def energy_of_bonds(world: World, scratch: Floats) -> float:
         for lane in range(LANES):
             gather_ends(world.particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
         for lane in range(LANES):  # always all: a loop of fixed length vectorises
-            energy_of_lane(data, scratch, lane, uniforms)
+            energy_of_lane(data, scratch, lane, uniforms, time)
         for lane in range(LANES):
             if bonds.sides[b, lane] & FIRST and data[INTACT * LANES + lane] > 0.0:
                 total += data[INTACT * LANES + lane] * scratch[ENERGY * LANES + lane]
@@ -149,25 +168,32 @@ def energy_of_bonds(world: World, scratch: Floats) -> float:
 
 
 @inlined
-def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[float, ...]) -> None:
-    """Write the elastic energy of a lane's bond."""
+def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[float, ...], time: float) -> None:
+    """Write the elastic energy of a lane's bond some time after its forces were evaluated."""
     motion = read_motion(scratch, lane)
-    strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), 0.0)
+    strain, _, _ = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), time)
     constants = read_constants(uniforms, data, lane)
     state = bond_flow(strain, constants, read_bond_state(data, lane))
     scratch[ENERGY * LANES + lane] = bond_energy(strain, constants, state)
 
 
 @inlined
-def energy_of(touch: Touch, constants, history, time: float) -> float:  # type: ignore[no-untyped-def]
-    """Return the elastic energy of a contact some time after its forces were evaluated."""
+def energy_of(touch: Touch, constants, history, time: float, drag: Vec, share: float, lost: Floats) -> float:  # type: ignore[no-untyped-def]
+    """Return the elastic energy of a contact some time after its forces were evaluated; add what it has lost since."""
     if time > 0.0:
-        _, history = contact_load(touch, constants, history, time, CHOICES)
+        load, kept = contact_load(touch, constants, history, time, CHOICES)
+        if CONTACT_LOSSES:
+            since = contact_losses(touch, constants, history, load, kept, time, CHOICES, drag)
+            lost[VISCOUS] += since.viscous / share
+            lost[SLIDING] += since.sliding
+            lost[ROLLING] += since.rolling
+            lost[STIFFENING] += since.stiffening
+        history = kept
     return contact_energy(touch, constants, history, CHOICES)  # type: ignore[no-any-return]
 
 
 @inlined
-def pair_energy(world: World, pairs: Pairs, k: int, scratch: Floats, time: float) -> float:
+def pair_energy(world: World, pairs: Pairs, k: int, scratch: Floats, time: float, lost: Floats) -> float:
     """Return the elastic energy of pair k, 0 where it does not touch."""
     particles, numbers = world.particles, world.numbers
     if not pairs.sides[k] & FIRST or not meet(particles, pairs, k, numbers, scratch, 0):
@@ -175,18 +201,21 @@ def pair_energy(world: World, pairs: Pairs, k: int, scratch: Floats, time: float
     if not BONDED_PAIRS_TOUCH and joined(pairs, world.bonds, k):
         return 0.0
     gather(particles, pairs, k, numbers, scratch, 0)
-    touch, _, _, _ = read_touch(scratch, 0, numbers, time)
+    touch, _, _, share = read_touch(scratch, 0, numbers, time)
     history = read_history(scratch, HISTORY_BASE, 0)
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, touch.normal) + dot(touch.spin_j, touch.normal)) * time
         history = carry_history(history, vector(scratch, NORMAL, 0), touch.normal, spin)
     i, j = pairs.first[k], pairs.second[k]
     constants = row_constants(numbers.contact_table[int(particles.body[i, MATERIAL]), int(particles.body[j, MATERIAL])])
-    return energy_of(touch, constants, history, time)
+    drag = vector(scratch, DRAG, 0) if CONTACT_LOSSES else ZERO
+    return energy_of(touch, constants, history, time, drag, share, lost)
 
 
 @inlined
-def wall_energy(world: World, walls: Walls, pairs: WallPairs, particles: Particles, p: int, time: float) -> float:
+def wall_energy(
+    world: World, walls: Walls, pairs: WallPairs, particles: Particles, p: int, time: float, lost: Floats
+) -> float:
     """Return the elastic energy of a particle and a wall, 0 where they do not touch."""
     numbers = world.numbers
     w, k = pairs.wall[p], pairs.particle[p]
@@ -196,10 +225,11 @@ def wall_energy(world: World, walls: Walls, pairs: WallPairs, particles: Particl
     if near.distance >= radius:
         return 0.0
     lever = radius - numbers.lever * (radius - near.distance)
-    touch, _ = wall_touch(particles, k, near.distance, near.normal, lever, row(walls.velocity, w, 0), time)
+    touch, share = wall_touch(particles, k, near.distance, near.normal, lever, row(walls.velocity, w, 0), time)
     history = fresh_history()
     if HISTORY > 0 and pairs.touching[p] != 0:
         spin = 0.5 * dot(touch.spin_i, near.normal) * time
         history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), near.normal, spin)
     constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
-    return energy_of(touch, constants, history, time)
+    drag = row(pairs.history, p, 3 + HISTORY) if CONTACT_LOSSES and pairs.touching[p] != 0 else ZERO
+    return energy_of(touch, constants, history, time, drag, share, lost)

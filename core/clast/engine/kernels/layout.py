@@ -20,9 +20,10 @@ FIRST, SECOND = 1, 2
 
 # scratch of the bond sweep
 BOND_D, BOND_QI, BOND_QJ, BOND_V, BOND_WI, BOND_WJ = 0, 3, 7, 11, 14, 17
-BOND_F, BOND_MI, BOND_MJ, OVERLOAD, DAMPED, FLOWED = 20, 23, 26, 29, 30, 31
-RATE_V, RATE_WI, RATE_WJ = 32, 35, 38  # velocities at the instant of the forces, for dashpots
-BOND_SCRATCH = 41
+BOND_F, BOND_MI, BOND_MJ, OVERLOAD, FLOWED = 20, 23, 26, 29, 30
+RATE_V, RATE_WI, RATE_WJ = 31, 34, 37  # velocities at the instant of the forces, for dashpots
+DRAG_F, DRAG_M = 40, 43  # force and moment of the dashpots
+BOND_SCRATCH = 46
 ENERGY = BOND_F  # where loads are not computed
 
 # scratch of the contact sweep

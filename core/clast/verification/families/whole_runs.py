@@ -7,8 +7,10 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from clast.engine.ledger import Ledger
 from clast.results import checkpoint
 from clast.simulation import Simulation
+from clast.verification import needs
 from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings
 from clast.verification.curves import Floats
@@ -22,6 +24,9 @@ LOOK = 50
 
 ROUNDING = 1e-11
 """What rounding may change, as a share."""
+
+CLOSURE = 1e-4
+"""What the energy ledger may leave, as a share."""
 
 
 def judge_momentum(bench: Bench) -> Findings:
@@ -59,6 +64,34 @@ def momenta(simulation: Simulation) -> tuple[Floats, Floats]:
     return (m * v).reshape(halves).sum(axis=1), angular.reshape(halves).sum(axis=1)
 
 
+def judge_ledger(bench: Bench) -> Findings:
+    """Book all energy through the collision; what is stored and what is dissipated make up what there was."""
+    simulation = bench.start({"output.ledger": True})
+    books = (
+        follow(simulation, lambda at: np.array([*summed_up(at.ledger()).values()]), LOOK) / simulation.ledger().start
+    )
+    error = float(np.abs(books[:, -1]).max())
+    yield Finding("energy missing or too much: largest share", 0.0, error, CLOSURE, True)
+    time = 1e3 * simulation.dt * np.minimum(LOOK * np.arange(len(books)), simulation.last_step)
+    names = [*summed_up(simulation.ledger())][:-1]
+    lines = [Line(name, time, books[:, k]) for k, name in enumerate(names)]
+    lines.append(Line("all", time[::10], books[::10, :-1].sum(axis=1), True))
+    yield Sketch("where the energy stays", "time, ms", "share of the energy at the start", tuple(lines))
+
+
+def summed_up(ledger: Ledger) -> dict[str, float]:
+    """Return the terms of a ledger that a picture shows, in J, and last its error."""
+    friction = ledger.sliding + ledger.rolling + ledger.contact_stiffening
+    return {
+        "kinetic": ledger.kinetic,
+        "elastic": ledger.contact_elastic + ledger.bond_elastic,
+        "broken bonds": ledger.broken + ledger.plastic + ledger.drops,
+        "friction": friction,
+        "dashpots": ledger.contact_viscous + ledger.bond_viscous,
+        "error": ledger.error,
+    }
+
+
 def judge_neighbours(bench: Bench) -> Findings:
     """Run once more with other neighbour lists: by another search, and with more and less reach."""
     reference = motion(bench.run())
@@ -89,7 +122,8 @@ FAMILY = Family(
     "whole_runs",
     "Whole runs",
     "Two free cubes of bonded spheres collide off-centre and spinning: bonds break, pieces touch, slide and roll. "
-    "Momentum and angular momentum change by rounding only. How neighbours are found, and whether a run is stopped and "
+    "Momentum and angular momentum change by rounding only, and the energy that is stored and dissipated, each "
+    "term booked by itself, makes up what there was. How neighbours are found, and whether a run is stopped and "
     "resumed, changes not a bit.",
     (
         Case(
@@ -98,6 +132,14 @@ FAMILY = Family(
             "run_clusters",
             judge_momentum,
             "forces and torques come in pairs: Newton's third law",
+        ),
+        Case(
+            "run_ledger",
+            "the energy of what collides, rubs and breaks",
+            "run_clusters",
+            judge_ledger,
+            "energy is conserved; no term is computed as the rest",
+            (needs.losses,),
         ),
         Case(
             "run_neighbours",
