@@ -113,6 +113,16 @@ def test_the_scene_that_all_others_spoil_is_right() -> None:
             "",
             "scene.yaml:14:1: walls: particles fall through walls without a section 'contacts'",
         ),
+        (
+            "  bonds:\n    - {between: [0, 1], diameter: 1 mm}\n",
+            "",
+            "scene.yaml:10:1: bonds: no particles are bonded; add 'between' with a 'max_gap'",
+        ),
+        (
+            PAIR[PAIR.index("bonds:\n  model") : PAIR.index("contacts:")],
+            "",
+            "scene.yaml:10:3: particles.bonds: the scene has no section 'bonds' with a 'model' for these bonds; add it",
+        ),
     ],
 )
 def test_a_scene_that_cannot_start_is_told_with_file_line_and_key(old: str, new: str, message: str) -> None:
@@ -264,7 +274,9 @@ def test_a_run_is_neither_overwritten_nor_gone_on_with_by_another_scene() -> Non
     assert said(clast("run", "one.yaml", "-o", "run"), exit_code=1) == (
         "run: holds a run already; add --resume to go on with it, or choose another folder with -o"
     )
-    told = said(clast("run", "one.yaml", "-o", "run", "--resume", "--set", "time.end.time=5e-4"), exit_code=1)
+    refused = clast("run", "one.yaml", "-o", "run", "--resume", "--set", "time.end.time=5e-4")
+    told = said(refused, exit_code=1)
+    assert "building" not in refused.stdout
     assert told.startswith(
         "run/checkpoint.h5: belongs to another scene, so it cannot be resumed (time.end.time: 0.0004"
     )
