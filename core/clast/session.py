@@ -89,10 +89,10 @@ def run_scene(
     prepare_folder(folder, resume)
     session = None
     try:
+        if resume:
+            checkpoint.refuse_other_scene(folder, config)
         listener.building()
-        simulation = Simulation(config, threads)
-        if simulation.kernel.fresh:
-            listener.compiling()
+        simulation = Simulation(config, threads, listener.compiling)
         session = _Session(simulation, folder, resume, listener)
         elapsed, steps = session.advance()
         return session.finish(elapsed, steps)

@@ -66,8 +66,8 @@ from .touching import share_since_touch
 
 HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
 ROUNDING = 2.0**-52
-"""Least overlap as a share of both radii together: what touches by rounding alone, as accepted overlaps do at the start,
-still overlaps, as laws are promised."""
+"""Least overlap as a share of both radii together: what touches by rounding alone, as accepted overlaps do at the
+start, still overlaps, as laws are promised."""
 
 
 @inlined
