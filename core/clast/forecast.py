@@ -21,7 +21,7 @@ from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
 from clast.scene.plan import bond_stiffness
 from clast.scene.scene import Scene
-from clast.scene.start import check_contacts, check_start, check_tracks
+from clast.scene.start import check_bonds, check_contacts, check_start, check_tracks
 
 # seconds a step, measured on one core of an AMD EPYC (family 25, model 1) with grains of 361 to 17 700 primaries:
 # 30 ns a bond where everything fits into the cache, 45 ns where not
@@ -98,6 +98,7 @@ def forecast(config: SceneConfig) -> Forecast:
     (check_contacts if packed else check_start)(sample)
     particles = len(sample.radius) + sum(each.particles - STAND_INS for each in packed)
     bonds = _bonds(sample, told)
+    check_bonds(config, math.inf if bonds is None else bonds.value)
     count = BONDS_PER_PARTICLE * particles if bonds is None else bonds.value
     step = _time_step(sample, 2.0 * count / particles if packed else None)
     steps = Gauge(config).last_step(step)

@@ -89,10 +89,10 @@ def run_scene(
     session = None
     try:
         with stoppable(), run_folder(folder, resume) as goes_on:
+            if goes_on:
+                checkpoint.refuse_other_scene(folder, config)
             listener.building()
-            simulation = Simulation(config, threads)
-            if simulation.kernel.fresh:
-                listener.compiling()
+            simulation = Simulation(config, threads, listener.compiling)
             session = _Session(simulation, folder, goes_on, listener)
             session.advance()
             return session.finish()

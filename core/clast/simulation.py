@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -54,6 +54,14 @@ class Observer(Protocol):
 class Simulation:
     """One scene, running.
 
+    Parameters
+    ----------
+    config : SceneConfig
+    threads : int, optional
+        How many may share the steps; as many as there are processors, if not given.
+    compiling : callable, optional
+        Called without arguments before kernels are compiled for the first time.
+
     Attributes
     ----------
     scene : Scene
@@ -82,7 +90,9 @@ class Simulation:
         Finds what the time step cannot follow.
     """
 
-    def __init__(self, config: SceneConfig, threads: int | None = None) -> None:
+    def __init__(
+        self, config: SceneConfig, threads: int | None = None, compiling: Callable[[], None] | None = None
+    ) -> None:
         self.config = config
         self.scene: Scene = build_scene(config)
         check_start(self.scene)
@@ -96,6 +106,8 @@ class Simulation:
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         try_laws(self.scene, self.plan)
         self.kernel: Kernel = assemble(self.plan)
+        if compiling is not None and self.kernel.fresh:
+            compiling()
         self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral, self.kernel.gaps)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
         self.crew = Crew(threads, self.world)

@@ -102,6 +102,19 @@ def test_an_impact_loses_the_share_of_its_kinetic_energy_that_restitution_tells(
     assert abs(ledger.closure) < 1e-4
 
 
+def test_contacts_that_begin_with_overlaps_counted_as_undeformed_are_in_the_books(tmp_path: Path) -> None:
+    dense = ["particles.primaries=75", "particles.accept_overlap=true", "time.step=1e-7", "time.end.strain=0.01"]
+    simulation = Simulation(load(write(tmp_path, CRUSH), [LEDGER, *dense]))
+    assert simulation.plan.contacts is not None
+    assert simulation.plan.contacts.rests
+    simulation.advance_to(simulation.last_step)
+    ledger = simulation.ledger()
+    assert all(np.isfinite(ledger))
+    assert ledger.start < 1e-9 * ledger.contact_elastic
+    assert ledger.sliding > 0.0
+    assert abs(ledger.closure) < 1e-4
+
+
 SLIDING = """
 name: sliding
 materials:

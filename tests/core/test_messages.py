@@ -113,6 +113,16 @@ def test_the_scene_that_all_others_spoil_is_right() -> None:
             "",
             "scene.yaml:14:1: walls: particles fall through walls without a section 'contacts'",
         ),
+        (
+            "  bonds:\n    - {between: [0, 1], diameter: 1 mm}\n",
+            "",
+            "scene.yaml:10:1: bonds: no particles are bonded; add 'between' with a 'max_gap'",
+        ),
+        (
+            PAIR[PAIR.index("bonds:\n  model") : PAIR.index("contacts:")],
+            "",
+            "scene.yaml:10:3: particles.bonds: the scene has no section 'bonds' with a 'model' for these bonds; add it",
+        ),
     ],
 )
 def test_a_scene_that_cannot_start_is_told_with_file_line_and_key(old: str, new: str, message: str) -> None:

@@ -42,8 +42,9 @@ def test_a_run_is_neither_overwritten_nor_gone_on_with_by_another_scene() -> Non
     assert said(clast("run", "one.yaml", "-o", "run"), exit_code=1) == (
         "run: holds a run already; add --resume to go on with it, or choose another folder with -o"
     )
-    told = said(clast("run", "one.yaml", "-o", "run", "--resume", "--set", "time.end.time=5e-4"), exit_code=1)
-    assert told.startswith(
+    refused = clast("run", "one.yaml", "-o", "run", "--resume", "--set", "time.end.time=5e-4")
+    assert "building" not in refused.stdout
+    assert said(refused, exit_code=1).startswith(
         "run/checkpoint.h5: belongs to another scene, so it cannot be resumed (time.end.time: 0.0004"
     )
     for name in ("checkpoint.h5", "checkpoint.previous.h5"):

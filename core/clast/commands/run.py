@@ -85,7 +85,8 @@ class Lines(Listener):
         """Tell the size of the run."""
         scene = simulation.scene
         left = simulation.last_step - simulation.step
-        self.say(f"{len(scene.radius)} particles, {len(scene.ends)} bonds, {left:,} steps of {simulation.dt:.3g} s")
+        size = f"{counted(len(scene.radius), 'particle')}, {counted(len(scene.ends), 'bond')}"
+        self.say(f"{size}, {left:,} steps of {simulation.dt:.3g} s")
         for line in (simulation.crew.told, simulation.keeper.warning):
             if line:
                 self.say(line)
@@ -142,6 +143,15 @@ class Bar(Lines):
 def console_listener(config: SceneConfig) -> Lines:
     """Return a bar for terminals, plain lines for everything else."""
     return Bar() if sys.stdout.isatty() else Lines()
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a count with its noun.
+
+    >>> counted(1, "particle"), counted(428, "particle")
+    ('1 particle', '428 particles')
+    """
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def status(simulation: Simulation, rate: float) -> list[str]:
@@ -201,11 +211,14 @@ def steps_text(summary: dict[str, Any]) -> str:
     >>> changes = [{"step": 50, "time": 0.1, "dt": 0.001}]
     >>> told = {"steps": 90, "time_step_s": 0.002, "time_step_changes": changes, "time_step_ruled_by": "spectral"}
     >>> steps_text(told)
-    '90 of 0.002 s (limit: spectral), shortened 1 times to 0.001 s'
+    '90 of 0.002 s (limit: spectral), shortened once to 0.001 s'
     """
     rule, changes = summary["time_step_ruled_by"], summary["time_step_changes"]
     text = f"{summary['steps']} of {summary['time_step_s']:.3g} s" + (f" (limit: {rule})" if rule else "")
-    return text + (f", shortened {len(changes)} times to {changes[-1]['dt']:.3g} s" if changes else "")
+    if not changes:
+        return text
+    times = "once" if len(changes) == 1 else f"{len(changes)} times"
+    return f"{text}, shortened {times} to {changes[-1]['dt']:.3g} s"
 
 
 def print_outcome(outcome: Outcome) -> None:

@@ -6,9 +6,11 @@ file of every function reachable from a part, and the value of every plain const
 
 from __future__ import annotations
 
+import dis
 import hashlib
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from importlib.util import find_spec, resolve_name
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
@@ -17,7 +19,7 @@ import numpy as np
 
 from clast.errors import PluginError
 
-FOREIGN = ("numba", "numpy", "math", "builtins")
+FOREIGN = {"numba", "numpy"} | sys.stdlib_module_names
 
 
 def names_used(code: CodeType) -> set[str]:
@@ -93,9 +95,10 @@ def constant_text(value: Any) -> str | None:
 
 
 def source_files(functions: Iterable[Callable[..., Any]]) -> set[Path]:
-    """Return the files of all functions reachable from the given ones, and of the classes they use."""
+    """Return the files of all functions reachable from the given ones, of classes they use, and of late imports."""
     files: set[Path] = set()
     for function in reachable(functions):
+        files |= set(files_imported_inside(function))
         used = [v for v in referred(function).values() if isinstance(v, type)]
         modules = {function.__module__, *(each.__module__ for each in used)}
         for name in modules:
@@ -103,6 +106,33 @@ def source_files(functions: Iterable[Callable[..., Any]]) -> set[Path]:
             if file is not None and name.split(".")[0] not in FOREIGN:
                 files.add(Path(file))
     return files
+
+
+def files_imported_inside(function: FunctionType) -> Iterator[Path]:
+    """Yield the files of those modules of its own package that a function imports when it is called.
+
+    They are found without importing them: they may need libraries that are slow to load.
+    """
+    package = function.__module__.split(".")[0]
+    for name, inner in imports_inside(function.__code__, function.__globals__.get("__package__") or ""):
+        spec = find_spec(name) if name.split(".")[0] == package else None
+        if spec is None:
+            continue
+        submodules = (find_spec(f"{name}.{each}") for each in inner) if spec.submodule_search_locations else ()
+        yield from (Path(each.origin) for each in (spec, *submodules) if each is not None and each.origin is not None)
+
+
+def imports_inside(code: CodeType, package: str) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the modules that a code object and those nested in it import, with the names taken from each."""
+    instructions = list(dis.get_instructions(code))
+    for k, instruction in enumerate(instructions):
+        if instruction.opname == "IMPORT_NAME":
+            level, names = instructions[k - 2].argval, instructions[k - 1].argval
+            if package or not level:
+                yield resolve_name("." * level + instruction.argval, package), names or ()
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from imports_inside(constant, package)
 
 
 def digest(functions: Iterable[Callable[..., Any]], *texts: str) -> str:

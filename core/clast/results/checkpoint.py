@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.config.scene import SceneConfig
 from clast.engine.cache_lines import on_line, on_lines
 from clast.engine.timeline import Timeline
 from clast.errors import RunError
@@ -72,6 +74,21 @@ def _fill(file: Any, simulation: Simulation, notes: Mapping[str, Any]) -> None:
     file.attrs["about"] = json.dumps(identity(simulation) | {"notes": dict(notes)})
 
 
+def refuse_other_scene(folder: Path, config: SceneConfig) -> None:
+    """Refuse to resume a run with another scene, before anything is packed or compiled.
+
+    Raises
+    ------
+    RunError
+        If the last checkpoint that can be read belongs to another scene.
+    """
+    for path in _found(folder):
+        with suppress(OSError, KeyError, TypeError, ValueError, RuntimeError):
+            scene = _read(path)[1]["scene"]
+            _refuse_differing(path, scene, _plain(config))
+            return
+
+
 def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
     """Bring a simulation to the state of a run folder's last good checkpoint, and return the notes beside it.
 
@@ -80,7 +97,7 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
     RunError
         If there is none, none can be read, or it belongs to another scene or other physics.
     """
-    found = [path for path in (folder / FILE, folder / PREVIOUS) if path.exists()]
+    found = _found(folder)
     if not found:
         raise RunError(f"{folder}: no checkpoint to resume from; run without --resume to start anew")
     reasons = []
@@ -96,6 +113,15 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
         f"{'; '.join(reasons)}: the run cannot go on from here. What it measured can still be read; start it anew in "
         "another folder with -o"
     )
+
+
+def _found(folder: Path) -> list[Path]:
+    return [path for path in (folder / FILE, folder / PREVIOUS) if path.exists()]
+
+
+def _plain(config: SceneConfig) -> dict[str, Any]:
+    """Return a scene as a checkpoint keeps it."""
+    return dict(json.loads(json.dumps(config.resolved())))
 
 
 def state_arrays(simulation: Simulation) -> Iterator[tuple[str, NDArray[Any]]]:
@@ -114,7 +140,7 @@ def identity(simulation: Simulation) -> dict[str, Any]:
     """Return what must agree for a resume: scene, kernel, step."""
     return {
         "schema": 1,
-        "scene": json.loads(json.dumps(simulation.config.resolved())),
+        "scene": _plain(simulation.config),
         "kernel": simulation.kernel.digest,
         "dt": simulation.timeline.spans[0].dt,
         "timeline": simulation.timeline.spans,
@@ -152,7 +178,16 @@ def _read(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
 
 
 def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
-    before, now = flat(old["scene"]), flat(new["scene"])
+    _refuse_differing(path, old["scene"], new["scene"])
+    if old["kernel"] != new["kernel"] or old["dt"] != new["dt"]:
+        raise RunError(
+            f"{path}: was computed by other sources of the laws or of Clast, so going on would mix two physics; "
+            "start anew in another folder with -o"
+        )
+
+
+def _refuse_differing(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+    before, now = flat(old), flat(new)
     differing = [
         key
         for key in sorted(before.keys() | now.keys())
@@ -163,11 +198,6 @@ def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) ->
         raise RunError(
             f"{path}: belongs to another scene, so it cannot be resumed ({shown}). "
             "Resume with the same file and --set options, or choose another folder with -o"
-        )
-    if old["kernel"] != new["kernel"] or old["dt"] != new["dt"]:
-        raise RunError(
-            f"{path}: was computed by other sources of the laws or of Clast, so going on would mix two physics; "
-            "start anew in another folder with -o"
         )
 
 

@@ -143,13 +143,13 @@ def compression_results(simulation: Simulation, curves: Curves) -> dict[str, Any
     if config.compression is None or "stress_Pa" not in curves:
         return {}
     strain, stress, force = curves["strain"], curves["stress_Pa"], curves["force_upper_N"]
-    k = int(np.argmax(stress))
+    k, height, nu = int(np.argmax(stress)), config.compression.height, poisson(simulation)
     return {
         "peak_stress_Pa": float(stress[k]),
         "strain_at_peak": float(strain[k]),
         "peak_inside_run": bool(peak_inside(stress, k)),
         "secant_modulus_20_80_Pa": secant_modulus(strain, stress, k),
-        "hertz_modulus_at_2_percent_Pa": hertz_modulus(strain, force, 0.02, config.compression.height, poisson(config)),
+        "hertz_modulus_at_2_percent_Pa": hertz_modulus(strain, force, 0.02, height, nu),
     }
 
 
@@ -184,9 +184,10 @@ def hertz_modulus(
     return float(mean * 0.75 * (1.0 - nu**2) / (sqrt(0.5 * height) * (0.5 * at * height) ** 1.5))
 
 
-def poisson(config: Any) -> float:
-    """Return Poisson's ratio of the first material."""
-    return float(next(iter(config.materials.values())).poisson_ratio)
+def poisson(simulation: Simulation) -> float:
+    """Return Poisson's ratio of the first particle's material."""
+    materials = list(simulation.config.materials.values())
+    return float(materials[simulation.scene.material[0]].poisson_ratio)
 
 
 def write(folder: Path, summary: dict[str, Any]) -> Path:

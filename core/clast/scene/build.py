@@ -41,11 +41,15 @@ def generated(config: SceneConfig, chosen: Chosen) -> Packing:
     Raises
     ------
     PackingError, ConfigError
-        From the generator; and where it bonds a particle that is not there, one to itself, or two of them twice.
+        From the generator; and where it bonds a particle that is not there, one to itself, or two of them twice, or
+        brings bonds to a scene without a bond model.
     """
     with config.placing(config.path_of(chosen)):
         packing: Packing = chosen.part.generate(chosen.params, config.folder)
-    if packing.bonds is not None:
+    if packing.bonds is not None and len(packing.bonds.ends):
+        if config.bonds is None:
+            text = "the scene has no section 'bonds' with a 'model' for these bonds; add it, or remove them"
+            raise config.problem((*config.path_of(chosen), "bonds"), text)
         _refuse_senseless_bonds(config, chosen, packing.bonds, len(packing.radius))
     return packing
 

@@ -21,11 +21,12 @@ def check_start(scene: Scene) -> None:
     Raises
     ------
     ConfigError
-        If two materials that can touch have no settings, walls have no contact law, a track names what is not there,
-        particles lie outside the domain, are so far from the origin or so near to each other that round-off is a
-        visible share of what moves them, or bodies overlap too much.
+        If two materials that can touch have no settings, walls have no contact law, a bond model has no bonds, a track
+        names what is not there, particles lie outside the domain, are so far from the origin or so near to each other
+        that round-off is a visible share of what moves them, or bodies overlap too much.
     """
     check_contacts(scene)
+    check_bonds(scene.config, len(scene.ends))
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
     _refuse_outsiders(scene)
     _refuse_coarse_positions(scene)
@@ -48,6 +49,21 @@ def check_contacts(scene: Scene) -> None:
     elif scene.config.walls:
         text = "particles fall through walls without a section 'contacts'; add it with a law, or remove the walls"
         raise scene.config.problem(("walls",), text)
+
+
+def check_bonds(config: SceneConfig, bonds: float) -> None:
+    """Check that a scene with a bond model says what to bond.
+
+    Raises
+    ------
+    ConfigError
+        If it does not.
+    """
+    if config.bonds is not None and config.bonds.between is None and bonds == 0:
+        text = (
+            "no particles are bonded; add 'between' with a 'max_gap', or bonds to the particles, or remove this section"
+        )
+        raise config.problem(("bonds",), text)
 
 
 def check_tracks(config: SceneConfig, particles: int, bonds: float) -> None:

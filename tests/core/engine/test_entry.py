@@ -97,10 +97,13 @@ def test_a_cache_that_cannot_be_written_is_replaced_by_a_temporary_one(
     monkeypatch.setenv("CLAST_CACHE", str(write(tmp_path, FALL) / "loops"))  # below a file, so nobody can make it
     kept = cache_folder()
     assert kept.parent == tmp_path
-    simulation = Simulation(load(tmp_path / "scene.yaml"))
+    told: list[bool] = []  # whether anything was compiled already when it was told
+    simulation = Simulation(load(tmp_path / "scene.yaml"), compiling=lambda: told.append(any(kept.rglob("*.nbi"))))
     assert simulation.kernel.fresh
     simulation.advance_to(1)
-    assert not Simulation(load(tmp_path / "scene.yaml")).kernel.fresh
+    assert any(kept.rglob("*.nbi"))
+    assert not Simulation(load(tmp_path / "scene.yaml"), compiling=lambda: told.append(True)).kernel.fresh
+    assert told == [False]
     assert any(kept.glob("clast_kernel_*"))
 
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 import importlib
 import math
 import sys
+from pathlib import Path
+from types import FunctionType
 
 import numpy as np
 import pytest
 
+from clast import load as load_scene
 from clast.engine.sources import address, digest, reachable, source_files
 from clast.errors import PluginError
 
+CONFIGS = Path(__file__).parents[3] / "configs"
 HELPER = "def f(x):\n    return {stiffness} * x\n"
 FACTOR = "FACTOR = {factor}\n\n\ndef g(x):\n    return x\n"
 LAW = """\
@@ -100,6 +104,31 @@ def test_what_a_nested_function_calls_is_found_too(law):
 def test_the_files_of_helpers_belong_to_the_sources(law, tmp_path):
     files = {path.name for path in source_files([law().load])}
     assert files == {"digest_law.py", "digest_helper.py"}
+
+
+def test_the_files_of_what_is_imported_late_belong_to_the_sources_and_are_not_loaded_for_that(tmp_path, monkeypatch):
+    package = tmp_path / "late_package"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "law.py").write_text(
+        "def load(x):\n    from late_package.kernel import f\n    from . import table\n    import json\n    f(x)\n"
+    )
+    for helper in ("kernel", "table"):
+        (package / f"{helper}.py").write_text("raise RuntimeError('loaded')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    files = source_files([importlib.import_module("late_package.law").load])
+    assert {path.name for path in files} == {"__init__.py", "law.py", "kernel.py", "table.py"}
+
+
+def test_the_sources_of_every_part_are_files_of_plugins_and_of_clast_with_their_kernels():
+    names = {}
+    for chosen in load_scene(CONFIGS / "crush_grain.yaml").chosen:
+        functions = [each for each in vars(chosen.part).values() if isinstance(each, FunctionType)]
+        files = source_files(functions)
+        assert all(path.is_relative_to(CONFIGS.parent) for path in files)
+        names[chosen.name] = {path.name for path in files}
+    assert "linked_cells_kernel.py" in names["linked_cells"]
+    assert {"relax.py", "overlap_kernel.py"} <= names["flattened_agglomerate"]
 
 
 def test_the_digest_is_the_same_for_the_same_sources(law):

@@ -65,6 +65,9 @@ from .slots import (
 from .touching import share_since_touch
 
 HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
+ROUNDING = 2.0**-52
+"""Least overlap as a share of both radii together: what touches by rounding alone, as accepted overlaps do at the
+start, still overlaps, as laws are promised."""
 
 
 @inlined
@@ -135,6 +138,7 @@ def read_touch(scratch: Floats, lane: int, numbers: Numbers, dt: float) -> tuple
     lever_i, lever_j = lever * r_i, lever * r_j
     if RESTS:
         overlap = overlap - scratch[REST * LANES + lane]
+    overlap = max(overlap, ROUNDING * (r_i + r_j))
     velocity, w_i, w_j = ZERO, ZERO, ZERO
     if VELOCITY_FORCES:
         velocity = vector(scratch, DV, lane)

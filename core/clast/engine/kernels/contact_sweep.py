@@ -96,8 +96,6 @@ def waking_energy(
     put(scratch, D, lane, sub(now, back))
     touch, _, _, _ = read_touch(scratch, lane, numbers, 0.0)
     put(scratch, D, lane, now)
-    if touch.overlap <= 0.0:
-        return 0.0
     materials = int(particles.body[pairs.first[k], MATERIAL]), int(particles.body[pairs.second[k], MATERIAL])
     energy: float = contact_energy(touch, row_constants(numbers.contact_table[materials]), fresh_history(), CHOICES)
     return energy
