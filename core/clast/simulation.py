@@ -111,8 +111,7 @@ class Simulation:
         self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral, self.kernel.gaps)
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
         self.crew = Crew(threads, self.world)
-        self.removed = 0
-        self.rebuilds = 0
+        self.removed = self.rebuilds = 0
         self.renew_lists()
         if self.plan.contacts is not None and self.plan.contacts.rests:
             relieve(self.scene, self.world.pairs)
