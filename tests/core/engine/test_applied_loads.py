@@ -35,7 +35,7 @@ def chain(count: int, loads: dict[int, dict[str, Any]], bonded: bool = True, **m
         {
             "materials": {"glass": {"density": 2500, "young_modulus": 1e8, "poisson_ratio": 0.2}},
             "particles": {"type": "explicit", "material": "glass", "particles": particles, "bonds": bonds},
-            "bonds": {"model": model},
+            **({"bonds": {"model": model}} if bonded else {}),
             "time": {"step": DT, "end": {"steps": STEPS}},
         }
         | more
