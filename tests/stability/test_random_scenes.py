@@ -1,11 +1,15 @@
-"""Whatever two spheres are made of and however they meet: the answer is right, or the scene says why there is none."""
+"""Whatever spheres and grains are made of and meet: the answer is right, or the scene says why there is none."""
 
 from __future__ import annotations
 
-from hypothesis import given, settings
+from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
+from clast.config.scene import build
+from clast.config.yaml_loader import parse_document
+from tests.scenes import CRUSH
 from tests.stability.entry import GARBAGE, Answer, Entry, Ran, run_entry
+from tests.stability.matrix.steps import at_share
 from tests.stability.measures import kinetic, momentum_error
 from tests.stability.page import outcome
 from tests.stability.scenes import pair
@@ -47,4 +51,50 @@ def test_two_spheres_never_end_with_more_energy_or_other_momentum(
         return Answer("no energy gained", max(energy[-1] / energy[0] - 1.0, momentum_error(ran)), 0.05)
 
     verdict = run_entry(Entry("two spheres", lambda: pair(speed, sizes, changes=changes), judge))
+    assert verdict.kind != GARBAGE, outcome(verdict)
+
+
+@settings(max_examples=12, deadline=None, phases=[Phase.explicit, Phase.reuse, Phase.generate])
+@given(
+    speed=numbers(-3.0, 1.0).map(lambda power: 10.0**power),
+    stiffness=numbers(6.0, 10.0).map(lambda power: 10.0**power),
+    yield_strain=numbers(-4.0, -1.0).map(lambda power: 10.0**power),
+    breakage_strain=numbers(-4.0, -1.0).map(lambda power: 10.0**power),
+    restitution=numbers(0.0, 0.99),
+    friction=numbers(0.01, 2.0),
+    share=numbers(0.05, 1.0),
+)
+@example(  # contacts stiffen far beyond the soft bonds, and the step falls behind the limit
+    speed=0.1, stiffness=1e6, yield_strain=0.1, breakage_strain=0.1, restitution=0.0, friction=1.0, share=0.5
+)
+def test_a_grain_between_plates_never_holds_more_than_it_was_given(
+    speed: float,
+    stiffness: float,
+    yield_strain: float,
+    breakage_strain: float,
+    restitution: float,
+    friction: float,
+    share: float,
+) -> None:
+    changes = {
+        "walls.upper.motion.velocity": [0, 0, -speed],
+        "bonds.model.young_modulus": stiffness,
+        "bonds.model.yield_stress": stiffness * yield_strain,
+        "bonds.model.breakage_strain": breakage_strain,
+        "contacts.pairs.default": {
+            "restitution": restitution,
+            "sliding_friction": friction,
+            "rolling_friction": friction,
+        },
+        "time.end": {"steps": 2000},
+        "output": {"samples": 100, "frames": 0, "writers": [], "ledger": True},
+    }
+    grain = build(parse_document(CRUSH)).changed(changes)
+
+    def judge(ran: Ran) -> Answer:
+        curves = ran.curves
+        given = abs(curves["energy_walls_J"][-1]) + curves["energy_start_J"][-1]
+        return Answer("the energy ledger closes", abs(curves["energy_error_J"][-1]) / given, 0.05)
+
+    verdict = run_entry(Entry("a grain", lambda: at_share(grain.changed, share, {}), judge))
     assert verdict.kind != GARBAGE, outcome(verdict)
