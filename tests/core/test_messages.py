@@ -152,7 +152,8 @@ def test_a_packing_that_can_never_be_is_refused_before_it_is_tried() -> None:
             "0.3) fill 67% of a sphere of 0.75 mm, and at most 66% can be filled. Take a larger 'porosity', or "
             "'accept_overlap: true' to go on with the best packing found"
         )
-    assert clast("check", impossible, "--set", "particles.accept_overlap=true").exit_code == 0
+    bonded = ("--set", "bonds.between={max_gap: 0.1 mm}")
+    assert clast("check", impossible, *bonded, "--set", "particles.accept_overlap=true").exit_code == 0
     grain = "{type: spherical_agglomerate, material: glass, diameter: 1, primary_diameter: 0.1, primaries: 700}"
     told = said(clast("check", impossible, "--set", f"particles={grain}"))
     assert "particles.primaries: denser than any random packing: 700 primaries" in told

@@ -91,7 +91,7 @@ def judge_swap(bench: Bench) -> Findings:
 
 def judge_weak(bench: Bench) -> Findings:
     """Compare spheres whose bond breaks at once with spheres that never had one."""
-    apart = bench.start({"particles.bonds": []})
+    apart = bench.start({"particles.bonds": [], "bonds": None})
     plain = follow(apart, motion)
     for touching in (True, False):
         simulation = bench.start({"contacts.bonded_pairs": touching})
