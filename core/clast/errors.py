@@ -67,3 +67,9 @@ def about(*keys: str | int) -> Iterator[None]:
         if error.at is not None:
             error.at = (*keys, *error.at)
         raise
+
+
+def one_line(error: BaseException) -> str:
+    """Text of an error in one line, behind its type where it is not one of Clast's own."""
+    kind = "" if isinstance(error, PluginError) else f"{type(error).__name__}: "
+    return " ".join(f"{kind}{error}".split())

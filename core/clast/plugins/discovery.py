@@ -20,11 +20,11 @@ from typing import Any
 
 import pluggy
 
-from clast.errors import PluginError
+from clast.errors import PluginError, one_line
 from clast.plugins import hookspec
 from clast.plugins.blame import FILE_MODULE, GROUP, OWN_DISTRIBUTION, line_in
 from clast.plugins.nearest import suggestion
-from clast.plugins.registry import Failure, NameTakenError, Registry, Source, one_line
+from clast.plugins.registry import Failure, NameTakenError, Registry, Source
 
 CHOICE = "CLAST_PLUGINS"
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from clast.errors import PluginError
+from clast.errors import PluginError, one_line
 from clast.parts.params import Params
 from clast.plugins.blame import plugin_line
 from clast.plugins.nearest import suggestion
@@ -266,12 +266,6 @@ class Registry:
         if not self._parts and not self.failures:
             message += "; no plugin is installed, not even Clast's own: install it with 'pip install -e .'"
         return message
-
-
-def one_line(error: BaseException) -> str:
-    """Text of an error in one line, behind its type where it is not one of Clast's own."""
-    kind = "" if isinstance(error, PluginError) else f"{type(error).__name__}: "
-    return " ".join(f"{kind}{error}".split())
 
 
 def _conflict(taken: Registered, second: Source) -> str:

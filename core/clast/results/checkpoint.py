@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from clast.config.scene import SceneConfig
 from clast.engine.cache_lines import on_line, on_lines
 from clast.engine.timeline import Timeline
-from clast.errors import RunError
-from clast.plugins.registry import one_line
+from clast.errors import RunError, one_line
 from clast.results.room import in_memory
 from clast.simulation import Simulation
 from clast.soundness.energy import Balance

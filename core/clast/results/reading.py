@@ -10,8 +10,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from clast.errors import ClastError, RunError
-from clast.plugins.registry import one_line
+from clast.errors import ClastError, RunError, one_line
 
 RESULTS_FILE = "results.h5"
 CONFIG_FILE = "config.yaml"

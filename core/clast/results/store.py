@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.tables import crack_rows
-from clast.errors import RunError
-from clast.plugins.registry import one_line
+from clast.errors import RunError, one_line
 from clast.results.checkpoint import how_to_go_on
 from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
 from clast.results.whole_file import whole_file

@@ -18,9 +18,8 @@ from typing import TextIO
 
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig, load
-from clast.errors import ClastError, RunError
+from clast.errors import ClastError, RunError, one_line
 from clast.parts.writer import NOT_WRITTEN, Written
-from clast.plugins.registry import one_line
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import Run, open_run
 

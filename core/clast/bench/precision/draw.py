@@ -69,7 +69,14 @@ def _name_ends(axis: Any, drawn: list[Series], colours: list[str]) -> None:
             color=colours[k],
             fontsize=8.5,
             va="center",
-            arrowprops={"arrowstyle": "-", "color": colours[k], "linewidth": 0.5, "alpha": 0.6, "shrinkB": 4},
+            arrowprops={
+                "arrowstyle": "-",
+                "color": colours[k],
+                "linewidth": 0.5,
+                "alpha": 0.6,
+                "shrinkB": 4,
+                "relpos": (0.0, 0.5),
+            },
         )
 
 

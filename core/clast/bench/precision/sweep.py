@@ -15,8 +15,7 @@ from clast.bench.precision.theory import fitted_order, oscillator_order
 from clast.bench.section import Effort, Task
 from clast.config.scene import SceneConfig
 from clast.engine.state import Floats
-from clast.errors import ClastError
-from clast.plugins.registry import one_line
+from clast.errors import ClastError, one_line
 from clast.simulation import Simulation
 
 REPEATS = {Effort.QUICK: 1, Effort.USUAL: 3, Effort.FULL: 5}
