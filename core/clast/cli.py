@@ -243,3 +243,43 @@ def bench(
             complete = bench_command.bench(sections, Effort(effort or "usual"), peer, files, command, output)
         if not complete:
             ctx.exit(1)
+
+
+@main.command()
+@click.argument("file", metavar="STUDY", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the study; runs/NAME, if not given.")
+@_set
+@click.option("--workers", type=click.IntRange(min=1), show_default="one a processor", help="Runs at a time.")
+@click.option("--executor", type=click.Choice(["local", "dask"]), default="local", show_default=True)
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler, as tcp://head:8786; else one on this machine.")
+@click.option("--prepare", "way", flag_value="prepare", help="Only write the scene of every run, for a job array.")
+@click.option("--collect", "way", flag_value="collect", help="Only gather the runs that are there.")
+@click.pass_context
+def sweep(
+    ctx: click.Context,
+    /,
+    file: Path,
+    output: Path | None,
+    overrides: tuple[str, ...],
+    workers: int | None,
+    executor: str,
+    scheduler: str | None,
+    way: str | None,
+) -> None:
+    """Run the study in STUDY: one scene with values varied, in parallel; what is done is not repeated."""
+    from clast.commands import sweep as sweep_command
+    from clast.results.watch import stoppable
+    from clast.studies import executors
+    from clast.studies.config import load_study
+
+    study = load_study(file, overrides)
+    folder = output or Path("runs") / study.study
+    if way == "prepare":
+        sweep_command.print_prepared(folder, sweep_command.prepare(study, folder))
+        return
+    maker = executors.local(workers) if executor == "local" else executors.dask(scheduler, workers)
+    with stoppable():
+        outcome = sweep_command.sweep(study, folder, None if way == "collect" else maker)
+    sweep_command.print_outcome(outcome)
+    if sweep_command.failures(outcome):
+        ctx.exit(1)

@@ -1,6 +1,6 @@
 """Compare Clast with MUSEN on one grain: ``python docs/examples/parity.py`` prints the tables and draws the figure.
 
-Runs the grain with MUSEN's choices, with Clast's defaults and with one default at a time; about twenty minutes on two
+Runs the grain with MUSEN's choices, with Clast's defaults and with one default at a time; about ten minutes on two
 cores. Runs that are there already are not repeated. docs/parity.md says what comes out and why.
 """
 
@@ -209,7 +209,7 @@ def draw(folder: Path, path: Path) -> None:
     axes[1, 2].set(ylabel="bonds broken")
     for axis in axes[1]:
         axis.set_xlabel("strain [%]")
-    axes[0, 0].legend(frameon=False)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False)
     figure.savefig(path, dpi=120)
 
 

@@ -14,7 +14,7 @@ from clast.engine.springs import bodies_at_start, springs_at_start
 from clast.engine.time_step import limits
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
-from tests.support.springs import largest
+from clast.verification.dense_springs import largest
 
 PAGE = Path("docs/time-step.md")
 HEAD = """# How far each limit is from the true one

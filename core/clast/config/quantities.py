@@ -23,7 +23,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from clast.config.units import describe_dimension, examples, unit_factor
+from clast.config.units import Dimension, describe_dimension, examples, unit_factor
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.ASCII)
 _STARTS_WITH_NUMBER = r"^\s*[+-]?(\d|\.\d)"
@@ -79,6 +79,25 @@ def _text_to_si(given: str, unit: str) -> float:
         raise ValueError(f"{given!r} is {describe_dimension(dimension)}; {_needed(unit)}")
     with localcontext(prec=60):
         return float(Decimal(number) * factor)
+
+
+def read_quantity(given: object) -> tuple[float, Dimension | None]:
+    """Turn what a user wrote into a float in SI and its dimension; None for a bare number, which may be anything.
+
+    Raises
+    ------
+    ValueError
+        Not a number, not finite, or an unknown unit.
+
+    Examples
+    --------
+    >>> read_quantity("0.25 mm"), read_quantity(3)
+    ((0.00025, (1, 0, 0, 0)), (3.0, None))
+    """
+    match = _QUANTITY.fullmatch(given) if isinstance(given, str) else None
+    if match is None or not match[2]:
+        return to_si(given, "1"), None
+    return to_si(given, match[2]), unit_factor(match[2])[1]
 
 
 def _needed(unit: str) -> str:

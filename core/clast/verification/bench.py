@@ -43,12 +43,12 @@ class Bench:
         """Return the scene with some values changed, as :meth:`clast.config.scene.SceneConfig.changed` takes them."""
         return self._scene.changed(changes) if changes else self._scene
 
-    def start(self, changes: Mapping[str, Any] | None = None) -> Simulation:
-        """Return a simulation of the scene at its start."""
-        return Simulation(self.scene(changes))
+    def start(self, changes: Mapping[str, Any] | None = None, threads: int | None = None) -> Simulation:
+        """Return a simulation of the scene at its start, its steps shared by some threads; by all, if not given."""
+        return Simulation(self.scene(changes), threads)
 
-    def run(self, changes: Mapping[str, Any] | None = None) -> Simulation:
+    def run(self, changes: Mapping[str, Any] | None = None, threads: int | None = None) -> Simulation:
         """Return a simulation of the scene at its end."""
-        simulation = self.start(changes)
+        simulation = self.start(changes, threads)
         simulation.advance_to(simulation.last_step)
         return simulation

@@ -16,6 +16,7 @@ from clast.verification.families import (
     rotations,
     solitary_wave,
     spinning_impacts,
+    time_steps,
     waves,
     whole_runs,
 )
@@ -30,6 +31,7 @@ FAMILIES: tuple[Family, ...] = (
     beams.FAMILY,
     rotations.FAMILY,
     waves.FAMILY,
+    time_steps.FAMILY,
     whole_runs.FAMILY,
 )
 

@@ -22,8 +22,8 @@ from clast.engine.vibration import largest_eigenvalue
 from clast.plugins.discovery import discover
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from clast.verification.dense_springs import largest
 from tests.support.contacts import GLASS, contact
-from tests.support.springs import largest
 from tests.support.strategies import numbers
 
 GRAIN = Path("configs/paper/fig09_model1.yaml")

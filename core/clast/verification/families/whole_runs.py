@@ -6,9 +6,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from numpy.typing import NDArray
 
 from clast.engine.ledger import Ledger
 from clast.results import checkpoint
+from clast.results.fragments import fragments
 from clast.simulation import Simulation
 from clast.verification import needs
 from clast.verification.bench import Bench
@@ -18,6 +20,8 @@ from clast.verification.families.bonds import farthest, motion
 from clast.verification.finding import Finding
 from clast.verification.reading import follow, position, spin, velocity
 from clast.verification.sketch import Line, Sketch
+
+Integers = NDArray[np.int64]
 
 LOOK = 50
 """Steps between two looks."""
@@ -118,13 +122,47 @@ def judge_resume(bench: Bench) -> Findings:
     yield Finding("resumed half-way: difference of any position, velocity, spin", 0.0, difference, 0.0, True)
 
 
+def judge_threads(bench: Bench) -> Findings:
+    """Share the steps among more and more threads."""
+    reference = motion(bench.run(threads=1))
+    for threads in (2, 3):
+        difference = max(farthest(a, b) for a, b in zip(reference, motion(bench.run(threads=threads)), strict=True))
+        yield Finding(f"{threads} threads: difference of any position, velocity, spin", 0.0, difference, 0.0, True)
+
+
+def judge_fragments(bench: Bench) -> Findings:
+    """Tell what hangs together after a collision, and walk from particle to particle along the bonds that hold."""
+    simulation = bench.run()
+    ends, holds = simulation.scene.ends, simulation.bond_loads()[:, 0] == 1.0
+    got, expected = fragments(len(simulation.scene.mass), ends, holds), walked(len(simulation.scene.mass), ends[holds])
+    yield Finding("fragments", float(expected.max() + 1), float(got.max() + 1), 0.0)
+    yield Finding("particles in another fragment", 0.0, float(np.count_nonzero(got != expected)), 0.0, True)
+
+
+def walked(count: int, ends: Integers) -> Integers:
+    """Return the fragment number of each particle, found by walking along (m, 2) bonds."""
+    reach: list[list[int]] = [[] for _ in range(count)]
+    for a, b in ends.tolist():
+        reach[a].append(b)
+        reach[b].append(a)
+    number = np.full(count, -1)
+    for start in range(count):
+        ahead, fragment = [start] if number[start] < 0 else [], number.max() + 1
+        while ahead:
+            here = ahead.pop()
+            if number[here] < 0:
+                number[here] = fragment
+                ahead += reach[here]
+    return number
+
+
 FAMILY = Family(
     "whole_runs",
     "Whole runs",
     "Two free cubes of bonded spheres collide off-centre and spinning: bonds break, pieces touch, slide and roll. "
     "Momentum and angular momentum change by rounding only, and the energy that is stored and dissipated, each "
-    "term booked by itself, makes up what there was. How neighbours are found, and whether a run is stopped and "
-    "resumed, changes not a bit.",
+    "term booked by itself, makes up what there was. How neighbours are found, how many threads share the steps "
+    "(those of a larger grain that hits a plate), and whether a run is stopped and resumed, changes not a bit.",
     (
         Case(
             "run_momentum",
@@ -154,6 +192,20 @@ FAMILY = Family(
             "run_clusters",
             judge_resume,
             "the same bits",
+        ),
+        Case(
+            "run_threads",
+            "any number of threads gives the same run",
+            "run_large",
+            judge_threads,
+            "the same bits",
+        ),
+        Case(
+            "run_fragments",
+            "what still hangs together",
+            "run_clusters",
+            judge_fragments,
+            "the connected components of the graph of bonds, found by a walk; Clast's come from scipy.sparse.csgraph",
         ),
     ),
 )

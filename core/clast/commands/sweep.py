@@ -1,0 +1,204 @@
+"""``clast sweep``: run a study, show how it goes, and write its tables and plots."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from clast.config.yaml_loader import dump_yaml
+from clast.errors import RunError
+from clast.forecast import duration
+from clast.results.whole_file import whole_file
+from clast.studies import layout
+from clast.studies.conduct import Audience, conduct, states
+from clast.studies.config import StudyConfig
+from clast.studies.executors import Maker
+from clast.studies.outcome import StudyOutcome, conclude
+from clast.studies.tasks import Task, tasks
+from clast.studies.verdict import NOT_REPRODUCED, OPEN, REPRODUCED
+from clast.studies.work import DONE, FAILED, Result
+
+PLAIN_EVERY = 5.0
+COLOURS = {REPRODUCED: "green", NOT_REPRODUCED: "red", OPEN: "yellow"}
+
+
+def prepare(study: StudyConfig, folder: Path) -> list[Task]:
+    """Write the scene of every run, and the list of all, into a study's folder.
+
+    Raises
+    ------
+    ConfigError
+        A value that the scene does not allow.
+    RunError
+        If the folder holds another study.
+    """
+    found = tasks(study)
+    _refuse_another(study, folder)
+    (folder / "runs").mkdir(parents=True, exist_ok=True)
+    (folder / "scenes").mkdir(exist_ok=True)
+    for task in {task.name: task for task in found}.values():
+        file = layout.scene_of(folder, task.name)
+        if not file.exists():
+            with whole_file(file) as draft:
+                draft.write_text(task.scene, encoding="utf-8")
+    with whole_file(folder / layout.LIST) as draft:
+        draft.write_text("".join(f"{name}\n" for name in dict.fromkeys(task.name for task in found)), encoding="utf-8")
+    with whole_file(folder / layout.STUDY) as draft:
+        draft.write_text(dump_yaml(study.document.data), encoding="utf-8")
+    return found
+
+
+def _refuse_another(study: StudyConfig, folder: Path) -> None:
+    if not folder.is_dir() or not any(folder.iterdir()):
+        return
+    if not (folder / layout.STUDY).exists():
+        raise RunError(f"{folder}: holds something else than a study; choose another folder with -o")
+
+
+def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome:
+    """Run what is missing of a study, and write what all of it says.
+
+    Parameters
+    ----------
+    study : StudyConfig
+    folder : Path
+        Made when missing; runs that are done in it are not repeated.
+    maker : callable or None
+        Makes an executor; None only gathers what is there.
+
+    Raises
+    ------
+    ClastError
+        With a message for the user.
+    KeyboardInterrupt
+        After Ctrl-C or SIGTERM; tables of what is done are written first.
+    """
+    found = prepare(study, folder)
+    names = [task.name for task in found]
+    results: dict[str, Result] = {}
+    try:
+        if maker is not None:
+            with console_audience() as audience:
+                results = conduct(folder, names, maker, audience)
+    finally:
+        outcome = conclude(study, folder, found, states(folder, names, results))
+    return outcome
+
+
+class Lines(Audience):
+    """Progress as plain lines."""
+
+    def __init__(self) -> None:
+        self.asked = self.done = self.failed = self.here = 0
+        self.begun = self.told = time.monotonic()
+
+    def __enter__(self) -> Lines:
+        """Start."""
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        """End."""
+
+    def begins(self, asked: int, done: int) -> None:
+        """Tell how much there is to do."""
+        self.asked, self.done = asked, done
+        self.begun = time.monotonic()
+        self.say(f"{asked} runs" + (f", {done} of them done already" if done else ""))
+
+    def ended(self, result: Result) -> None:
+        """Tell how a run ended; failures at once."""
+        self.done += result.state == DONE
+        self.here += result.state == DONE
+        self.failed += result.state == FAILED
+        if result.state == FAILED:
+            self.say(f"failed: {result.name}: {result.reason}")
+        self.show()
+
+    def say(self, text: str) -> None:
+        """Print one line at once."""
+        print(text, flush=True)
+
+    def show(self) -> None:
+        """Tell where the study is, now and then."""
+        if time.monotonic() - self.told >= PLAIN_EVERY:
+            self.told = time.monotonic()
+            self.say(self.status())
+
+    def status(self) -> str:
+        """Return how many runs are done, and how long the rest may take."""
+        left = self.asked - self.done - self.failed
+        text = f"{self.done} of {self.asked} runs done" + (f", {self.failed} failed" if self.failed else "")
+        if self.here and left:
+            text += f", {duration((time.monotonic() - self.begun) / self.here * left)} left"
+        return text
+
+
+class Bar(Lines):
+    """Progress as a live bar, for terminals."""
+
+    def __enter__(self) -> Bar:
+        """Show the bar."""
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+        self.bar = Progress(BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn(), refresh_per_second=4)
+        self.bar.start()
+        self.task = self.bar.add_task("starting", total=None)
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        """Remove the bar."""
+        self.bar.stop()
+
+    def say(self, text: str) -> None:
+        """Print above the bar."""
+        self.bar.console.print(text, highlight=False, soft_wrap=True)
+
+    def show(self) -> None:
+        """Move the bar."""
+        self.bar.update(self.task, description=self.status(), completed=self.done + self.failed, total=self.asked)
+
+
+def console_audience() -> Lines:
+    """Return a bar for terminals, plain lines for everything else."""
+    return Bar() if sys.stdout.isatty() else Lines()
+
+
+def print_prepared(folder: Path, found: Sequence[Task]) -> None:
+    """Print how to run the scenes of a study one by one."""
+    scenes = folder / "scenes"
+    print(
+        f"{len({task.name for task in found})} scenes are in {scenes}, their names in {folder / layout.LIST}. "
+        "Run each NAME, anywhere, with\n"
+        f"  clast run {scenes}/NAME.yaml -o {folder / 'runs'}/NAME\n"
+        "then run the study with --collect"
+    )
+
+
+def print_outcome(outcome: StudyOutcome) -> None:
+    """Print the table of points, the verdicts, and where everything is."""
+    from rich.console import Console
+    from rich.table import Table as Drawn
+
+    console = Console(width=None if sys.stdout.isatty() else 160)
+    drawn = Drawn(box=None, pad_edge=False)
+    heads, rows = outcome.point_table()
+    for head in heads:
+        drawn.add_column(head, justify="left" if head in ("variant", *outcome.table.axes) else "right")
+    for row in rows:
+        drawn.add_row(*row)
+    console.print(drawn)
+    for verdict in outcome.verdicts:
+        said = f"{verdict.expectation.says}" + (f" [{verdict.variant}]" if verdict.variant else "")
+        console.print(f"{verdict.verdict}: ", style=COLOURS[verdict.verdict], end="", highlight=False)
+        console.print(f"{said}: {verdict.evidence}", highlight=False, markup=False, soft_wrap=True)
+    console.print(outcome.told(), highlight=False)
+    for path in outcome.written:
+        console.print(f"  {path}", highlight=False, soft_wrap=True)
+
+
+def failures(outcome: StudyOutcome) -> Sequence[Any]:
+    """Return the runs that failed."""
+    return [row for row in outcome.table.rows if row.state == FAILED]

@@ -1,0 +1,1 @@
+"""Studies: many runs of one scene with values varied, and what they say together."""

@@ -1,0 +1,178 @@
+"""An axis at work: its settings one by one, or the setting at a quantile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, gamma, isfinite, log, sqrt
+from typing import Any
+
+import numpy as np
+
+from clast.config.quantities import read_quantity
+from clast.studies.axis_config import AxisConfig
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One value of one axis.
+
+    Attributes
+    ----------
+    axis : str
+    label : str
+        As a user reads it.
+    number : float or None
+        In SI; None where the value is no quantity.
+    changes : mapping
+        Key path in the scene -> value.
+    """
+
+    axis: str
+    label: str
+    number: float | None
+    changes: dict[str, Any]
+
+
+class Axis:
+    """One axis of a study.
+
+    Parameters
+    ----------
+    name : str
+        Key path in the scene, or any name where ``config`` has ``keys``.
+    config : AxisConfig
+
+    Attributes
+    ----------
+    settings : tuple of Setting
+        All values of a list or a range; none of a distribution, or of a range without ``points``.
+
+    Raises
+    ------
+    ValueError
+        Ends of another dimension, a logarithmic range that touches zero, factors for what is no number.
+    """
+
+    def __init__(self, name: str, config: AxisConfig) -> None:
+        self.name, self.config = name, config
+        keys = config.keys if config.keys is not None else (name,)
+        self.factors = dict(keys) if isinstance(keys, dict) else dict.fromkeys(keys, 1.0)
+        self._scaled = isinstance(keys, dict)
+        if config.distribution is not None:
+            self._check_distribution()
+        elif config.values is None:
+            self._check_range()
+        self.settings = tuple(self._settings())
+
+    def at(self, share: float) -> Setting:
+        """Return the setting at a quantile between 0 and 1."""
+        if self.config.values is not None:
+            return self.settings[min(int(share * len(self.settings)), len(self.settings) - 1)]
+        return self._number(self._drawn(share) if self.config.distribution is not None else self._between(share))
+
+    @property
+    def only_drawn(self) -> bool:
+        """Whether values are drawn, so that there is no list of them."""
+        return not self.settings
+
+    def _settings(self) -> list[Setting]:
+        values = self.config.values
+        if isinstance(values, dict):
+            return [self._written(label, value) for label, value in values.items()]
+        if values is not None:
+            return [self._written(_short(value), value) for value in values]
+        if self.config.points is None or self.config.distribution is not None:
+            return []
+        shares = np.linspace(0.0, 1.0, self.config.points) if self.config.points > 1 else [0.0]
+        return [self._number(self._between(float(share))) for share in shares]
+
+    def _written(self, label: str, value: Any) -> Setting:
+        number = _number_of(value)
+        if not self._scaled:
+            return Setting(self.name, label, number, dict.fromkeys(self.factors, value))
+        if number is None:
+            raise ValueError(f"{value!r} is no number, so that it cannot be multiplied with the factors of 'keys'")
+        return Setting(self.name, label, number, {key: factor * number for key, factor in self.factors.items()})
+
+    def _number(self, number: float) -> Setting:
+        changes = {key: factor * number if self._scaled else number for key, factor in self.factors.items()}
+        return Setting(self.name, f"{number:.6g}", number, changes)
+
+    def _between(self, share: float) -> float:
+        (low, _), (high, _) = read_quantity(self.config.start), read_quantity(self.config.to)
+        if share in (0.0, 1.0):
+            return high if share else low
+        if self.config.spacing == "log":
+            return exp(log(low) + share * (log(high) - log(low)))
+        return low + share * (high - low)
+
+    def _drawn(self, share: float) -> float:
+        found = self._distribution()
+        low, high = (found.cdf(read_quantity(each)[0]) if each is not None else k for k, each in self._cuts())
+        return float(found.ppf(low + share * (high - low)))
+
+    def _distribution(self) -> Any:
+        """Return the distribution of scipy with this mean and deviation."""
+        from scipy import stats
+
+        mean, deviation = self._moments()
+        if self.config.distribution == "normal":
+            return stats.norm(mean, deviation)
+        if self.config.distribution == "lognormal":
+            width = sqrt(log(1.0 + (deviation / mean) ** 2))
+            return stats.lognorm(width, scale=mean * exp(-0.5 * width**2))
+        modulus = weibull_modulus(deviation / mean)
+        return stats.weibull_min(modulus, scale=mean / gamma(1.0 + 1.0 / modulus))
+
+    def _moments(self) -> tuple[float, float]:
+        return read_quantity(self.config.mean)[0], read_quantity(self.config.deviation)[0]
+
+    def _cuts(self) -> tuple[tuple[float, Any], tuple[float, Any]]:
+        return (0.0, self.config.at_least), (1.0, self.config.at_most)
+
+    def _check_range(self) -> None:
+        (low, one), (high, other) = read_quantity(self.config.start), read_quantity(self.config.to)
+        if one != other:
+            raise ValueError(f"'from' ({self.config.start}) and 'to' ({self.config.to}) are not of one dimension")
+        if self.config.spacing == "log" and low * high <= 0.0:
+            raise ValueError("a logarithmic range needs two ends of one sign, and none of them 0")
+
+    def _check_distribution(self) -> None:
+        dimensions = {
+            read_quantity(each)[1]
+            for each in (self.config.mean, self.config.deviation, self.config.at_least, self.config.at_most)
+            if each is not None
+        }
+        if len(dimensions) > 1:
+            raise ValueError("mean, deviation and ends of a distribution are not of one dimension")
+        mean, deviation = self._moments()
+        if deviation <= 0.0 or (mean <= 0.0 and self.config.distribution != "normal"):
+            raise ValueError(f"a {self.config.distribution} distribution needs a deviation and a mean above 0")
+
+
+def weibull_modulus(share: float) -> float:
+    """Return the modulus of the Weibull distribution whose deviation is a share of its mean.
+
+    >>> round(weibull_modulus(0.5), 2)
+    2.1
+    """
+    from scipy.optimize import brentq
+
+    def excess(m: float) -> float:
+        return gamma(1.0 + 2.0 / m) / gamma(1.0 + 1.0 / m) ** 2 - 1.0 - share**2
+
+    return float(brentq(excess, 0.1, 1e3))
+
+
+def _number_of(value: Any) -> float | None:
+    try:
+        number = read_quantity(value)[0]
+    except ValueError:
+        return None
+    return number if isfinite(number) else None
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, dict):
+        return str(value.get("type", value))
+    return str(value)

@@ -1,0 +1,54 @@
+"""An axis as a user writes it: a list of values, a range, or a distribution."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import ConfigDict, Field, model_validator
+
+from clast.parts.params import Params
+
+Given = Annotated[float | str, Field(description="A number, or a text of number and unit")]
+
+
+class AxisConfig(Params):
+    """What one axis of a study varies. A list alone stands for ``values``."""
+
+    model_config = ConfigDict(populate_by_name=True)
+
+    keys: Annotated[
+        dict[str, float] | tuple[str, ...] | None,
+        Field(
+            description="Keys that the value is given to, all alike or each times a factor; else the axis is the key"
+        ),
+    ] = None
+    values: Annotated[
+        list[Any] | dict[str, Any] | None, Field(min_length=1, description="Values, or values by name")
+    ] = None
+    start: Annotated[Given | None, Field(alias="from", description="First value of a range")] = None
+    to: Annotated[Given | None, Field(description="Last value of a range")] = None
+    points: Annotated[int | None, Field(ge=1, description="Values of a range, both ends included")] = None
+    spacing: Annotated[Literal["linear", "log"], Field(description="How a range is divided")] = "linear"
+    distribution: Annotated[
+        Literal["normal", "lognormal", "weibull"] | None, Field(description="What values are drawn from")
+    ] = None
+    mean: Annotated[Given | None, Field(description="Of the distribution")] = None
+    deviation: Annotated[Given | None, Field(description="Standard deviation of the distribution")] = None
+    at_least: Annotated[Given | None, Field(description="Where the distribution is cut off below")] = None
+    at_most: Annotated[Given | None, Field(description="Where the distribution is cut off above")] = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _list_is_values(cls, given: Any) -> Any:
+        return {"values": given} if isinstance(given, list | tuple) else given
+
+    @model_validator(mode="after")
+    def _one_of_three(self) -> AxisConfig:
+        ways = [self.values is not None, self.start is not None or self.to is not None, self.distribution is not None]
+        if sum(ways) != 1:
+            raise ValueError("give one of: a list of values, a range (from, to), a distribution")
+        if ways[1] and (self.start is None or self.to is None):
+            raise ValueError("a range needs 'from' and 'to'")
+        if ways[2] and (self.mean is None or self.deviation is None):
+            raise ValueError(f"distribution '{self.distribution}' needs 'mean' and 'deviation'")
+        return self

@@ -1,0 +1,85 @@
+"""Executors: who does the runs of a study; any ``concurrent.futures.Executor`` will do."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor
+from multiprocessing import get_context
+
+from clast.engine.crew import processors
+from clast.errors import ConfigError, RunError
+
+Maker = Callable[[], Executor]
+"""Makes an executor; called again when its workers have died."""
+
+ALONE = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+WAIT = "60 s"
+"""How long a scheduler may take to answer."""
+
+
+def local(workers: int | None = None) -> Maker:
+    """Return a maker of processes on this machine that live as long as the study: one a processor, if not given."""
+    count = workers or processors()
+    return lambda: ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
+
+
+def _begin() -> None:
+    """Prepare a worker: one thread, and Ctrl-C left to the process that leads."""
+    os.environ.update(ALONE)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def dask(scheduler: str | None, workers: int | None = None) -> Maker:
+    """Return a maker of an executor on a Dask cluster: the one at an address, or a local one.
+
+    Parameters
+    ----------
+    scheduler : str or None
+        As ``tcp://head:8786``; None starts workers on this machine.
+    workers : int or None
+        How many of those.
+
+    Raises
+    ------
+    ConfigError
+        If ``distributed`` is not installed.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise ConfigError("--executor dask needs the package 'distributed': pip install 'clast[dask]'") from None
+
+    def make() -> Executor:
+        try:
+            if scheduler is not None:
+                client = distributed.Client(scheduler, timeout=WAIT)
+            else:
+                cluster = distributed.LocalCluster(
+                    n_workers=workers or processors(), threads_per_worker=1, dashboard_address=None
+                )
+                client = distributed.Client(cluster)
+        except (OSError, TimeoutError, ValueError) as error:
+            raise RunError(f"no Dask scheduler answers at {scheduler}: {error}") from error
+        return _Dask(client, scheduler is None)
+
+    return make
+
+
+class _Dask(Executor):
+    """A Dask client as an executor that closes what it opened."""
+
+    def __init__(self, client: object, own_cluster: bool) -> None:
+        self.client, self.own_cluster = client, own_cluster
+        self.executor = client.get_executor(pure=False, retries=0)  # type: ignore[attr-defined]
+
+    def submit(self, *call: object, **named: object) -> object:  # type: ignore[override]
+        """Hand a call to the cluster."""
+        return self.executor.submit(*call, **named)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Close the connection, and the workers that were started for it."""
+        self.client.close()  # type: ignore[attr-defined]
+        if self.own_cluster:
+            self.client.cluster.close()  # type: ignore[attr-defined]

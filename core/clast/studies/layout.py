@@ -1,0 +1,24 @@
+"""Layout: which file of a study lies where in its folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+STUDY = "study.yaml"
+RUNS = "runs.csv"
+STATISTICS = "statistics.csv"
+VERDICTS = "verdicts.csv"
+TABLE = "table.h5"
+LIST = "tasks.txt"
+STOP = "stop"
+"""Its presence asks all runs to stop behind a checkpoint."""
+
+
+def scene_of(folder: Path, name: str) -> Path:
+    """Return the scene file of a run."""
+    return folder / "scenes" / f"{name}.yaml"
+
+
+def run_of(folder: Path, name: str) -> Path:
+    """Return the folder of a run."""
+    return folder / "runs" / name

@@ -1,0 +1,108 @@
+"""Tasks: every run of a study as a scene of its own, with a name that tells it apart."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from clast.config.document import dotted
+from clast.config.scene import SceneConfig
+from clast.config.yaml_loader import dump_yaml
+from clast.errors import ConfigError, KeyPath
+from clast.studies.config import QUIET, StudyConfig
+from clast.studies.design import Point, points
+
+LONGEST = 48
+"""Characters of a run's name that tell its values."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One run of a study.
+
+    Attributes
+    ----------
+    name : str
+        Of its scene and its folder: its values, and a digest of the whole scene; two runs that are the same have
+        the same name.
+    variant : str
+    point : int
+        Number of the point.
+    repeat : int
+    settings : tuple of Setting
+    scene : str
+        The scene as YAML, in SI.
+    """
+
+    name: str
+    variant: str
+    point: int
+    repeat: int
+    settings: Point
+    scene: str
+
+
+def tasks(study: StudyConfig) -> list[Task]:
+    """Return all runs of a study, those of one variant and point after each other.
+
+    Raises
+    ------
+    ConfigError
+        A varied key that does not exist, or a value that the scene does not allow.
+    """
+    found = []
+    for variant, own in study.variant_changes.items():
+        scene = changed(
+            study, study.scene, {**QUIET, **study.set, **own}, ("variants", variant) if variant else ("set",)
+        )
+        for number, point in enumerate(points(study)):
+            here = scene
+            for setting in point:
+                here = changed(study, here, setting.changes, ("vary", setting.axis))
+            for repeat in range(study.repeats):
+                again = here.changed(shifted_seeds(here, study, number, repeat))
+                found.append(task(again, variant, number, repeat, point))
+    return found
+
+
+def changed(study: StudyConfig, scene: SceneConfig, changes: Mapping[str, Any], place: KeyPath) -> SceneConfig:
+    """Return a scene with some values changed; what is wrong with them is told with its place in the study."""
+    try:
+        return scene.changed(changes) if changes else scene
+    except ConfigError as error:
+        raise study.problem(place, str(error)) from None
+
+
+def task(scene: SceneConfig, variant: str, point: int, repeat: int, settings: Point) -> Task:
+    """Return a scene as a task."""
+    text = dump_yaml(scene.resolved())
+    values = [variant, *(setting.label for setting in settings)]
+    slug = re.sub(r"[^A-Za-z0-9.=+-]+", "_", "-".join(value for value in values if value)).strip("_.-")[:LONGEST]
+    digest = hashlib.sha256(text.encode()).hexdigest()[:10]
+    return Task(f"{slug}-{digest}" if slug else digest, variant, point, repeat, settings, text)
+
+
+def shifted_seeds(scene: SceneConfig, study: StudyConfig, point: int, repeat: int) -> dict[str, int]:
+    """Return the seeds of one repeat: those of the scene, plus its number; plus that of the run, with ``per_run``.
+
+    Where the grain stays the same, the seeds of its packing do, too.
+    """
+    shift = point * study.repeats + repeat if study.grain == "per_run" else repeat
+    if shift == 0:
+        return {}
+    every = _seeds(scene.resolved(), ())
+    return {dotted(path): seed + shift for path, seed in every if study.grain != "same" or path[0] != "particles"}
+
+
+def _seeds(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, int]]:
+    if isinstance(value, Mapping):
+        for key, inner in value.items():
+            if key == "seed" and isinstance(inner, int):
+                yield (*path, key), inner
+            yield from _seeds(inner, (*path, key))
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            yield from _seeds(inner, (*path, index))
