@@ -50,6 +50,10 @@ class RunError(ClastError):
     """A run cannot start, go on, or be resumed."""
 
 
+class DamagedError(RunError):
+    """A file of a run is damaged, as a kill in the middle of a write may leave it; the run has to start anew."""
+
+
 @contextmanager
 def about(*keys: str | int) -> Iterator[None]:
     """Say that errors raised inside are about these keys of a part; see ``ClastError.at``.

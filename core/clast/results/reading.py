@@ -10,7 +10,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from clast.errors import ClastError, RunError, one_line
+from clast.errors import ClastError, DamagedError, RunError, one_line
 
 RESULTS_FILE = "results.h5"
 CONFIG_FILE = "config.yaml"
@@ -68,9 +68,9 @@ def _busy(path: Path) -> RunError:
     )
 
 
-def unreadable(path: Path, reason: str) -> RunError:
+def unreadable(path: Path, reason: str) -> DamagedError:
     """Build the error for a damaged file."""
-    return RunError(f"{path}: cannot be read ({reason}); the file is damaged or cut short, run the scene again")
+    return DamagedError(f"{path}: cannot be read ({reason}); the file is damaged or cut short, run the scene again")
 
 
 def common_length(group: Any) -> dict[str, NDArray[Any]]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.tables import crack_rows
-from clast.errors import RunError, one_line
+from clast.errors import DamagedError, RunError, one_line
 from clast.results.checkpoint import how_to_go_on
 from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
 from clast.results.whole_file import whole_file
@@ -247,7 +247,7 @@ def _refused(path: Path, error: Exception) -> RunError:
     return RunError(f"{path}: cannot be written ({reason}); {how_to_go_on(path.parent)}")
 
 
-def _damaged(path: Path, error: Exception) -> RunError:
-    return RunError(
+def _damaged(path: Path, error: Exception) -> DamagedError:
+    return DamagedError(
         f"{path}: is damaged, so the run cannot go on ({one_line(error)}); start it anew in another folder with -o"
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -15,8 +15,10 @@ from clast.config.scene import SceneConfig, load
 from clast.config.yaml_loader import read_document
 from clast.errors import ConfigError, KeyPath
 from clast.parts.params import Params
+from clast.plugins.nearest import suggestion
 from clast.studies.axis_config import AxisConfig
-from clast.studies.expectation_config import Expectation
+from clast.studies.expectation_config import CURVES, Expectation
+from clast.studies.measures import FROM_SUMMARY, MEASURES
 
 Changes = Annotated[dict[str, Any], Field(description="Key path in the scene -> value, as --set would have them")]
 SPACE_FILLING = ("latin_hypercube", "sobol", "random")
@@ -105,8 +107,31 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> StudyConfig:
     except ValidationError as error:
         raise ConfigError(document.report(located(error, StudyConfig, document))) from None
     study._document = document
+    problems = list(_unknown_names(study))
+    if problems:
+        raise ConfigError(document.report(problems))
     base = document.folder / study.base
     if not base.is_file():
         raise study.problem(("base",), f"{study.base!r}: no such file; the path starts at the study's folder")
     study._scene = load(base, overrides)
     return study
+
+
+def _unknown_names(study: StudyConfig) -> Iterator[Problem]:
+    """Names in statements that are no axis, no variant and no measure."""
+    measures = [CURVES, *MEASURES, *FROM_SUMMARY]
+    for k, each in enumerate(study.expect):
+        axes = [("along", each.along)] if each.along else []
+        axes += [(key, axis) for key in ("where", "than") for axis in getattr(each, key)]
+        for key, axis in axes:
+            if axis not in study.vary:
+                yield Problem(("expect", k, key), f"{axis!r} is not varied; {suggestion(axis, study.vary)}")
+        for variant in each.variants:
+            if variant not in study.variants:
+                text = f"there is no variant {variant!r}; {suggestion(variant, study.variants)}"
+                yield Problem(("expect", k, "variants"), text)
+        if each.measure not in measures:
+            text = f"{each.measure!r} is no measure; {suggestion(each.measure, measures)}"
+            yield Problem(("expect", k, "measure"), text)
+        if each.check in ("grows", "falls") and each.along is None and len(study.vary) != 1:
+            yield Problem(("expect", k), f"{len(study.vary)} axes are varied; say with 'along' which one is meant")

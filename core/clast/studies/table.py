@@ -99,7 +99,8 @@ def _row(folder: Path, task: Task, result: Result) -> Row:
     try:
         found, curve = measure(run_of(folder, task.name))
     except ClastError as error:
-        return Row(task, FAILED, " ".join(str(error).split()))
+        advice = f"remove {run_of(folder, task.name)} and run the study again"
+        return Row(task, FAILED, f"{' '.join(str(error).split())}; {advice}")
     return Row(task, DONE, "", found, curve)
 
 

@@ -7,7 +7,8 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from clast.errors import ClastError
+from clast.config.scene import SceneConfig, load
+from clast.errors import ClastError, DamagedError
 from clast.results.watch import RunInterruptedError, StopError
 from clast.session import Listener, run_scene
 from clast.simulation import Simulation
@@ -53,15 +54,12 @@ def perform(folder: str, name: str) -> Result:
     name : str
         Of the run.
     """
-    from clast.config.scene import load
-
     place, begun = run_of(Path(folder), name), time.monotonic()
     try:
         if (Path(folder) / STOP).exists():
             raise RunInterruptedError(signal.SIGTERM)
         if not is_done(Path(folder), name):
-            scene = load(scene_of(Path(folder), name))
-            run_scene(scene, place, (place / "results.h5").exists(), _Ear(Path(folder)), threads=1)
+            _run(load(scene_of(Path(folder), name)), place, _Ear(Path(folder)))
         state, reason = DONE, ""
     except (KeyboardInterrupt, StopError):
         state, reason = STOPPED, GO_ON
@@ -72,3 +70,12 @@ def perform(folder: str, name: str) -> Result:
     except Exception as error:  # one run that fails in an unforeseen way costs that run, not the study
         state, reason = FAILED, f"{type(error).__name__}: {error}"
     return Result(name, state, " ".join(reason.split()), time.monotonic() - begun)
+
+
+def _run(scene: SceneConfig, place: Path, ear: Listener) -> None:
+    """Run a scene, from its last checkpoint where there is one; a run whose files a kill has damaged starts anew."""
+    try:
+        run_scene(scene, place, (place / "results.h5").exists(), ear, threads=1)
+    except DamagedError:
+        place.replace(place.with_name(f"{place.name}.damaged-{time.time_ns()}"))
+        run_scene(scene, place, False, ear, threads=1)

@@ -1,0 +1,71 @@
+"""A study file that says something wrong is told where, what, and what to do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from clast.errors import ConfigError
+from clast.studies.config import load_study
+from clast.studies.design import points
+from clast.studies.tasks import tasks
+from tests.core.studies.support import study, study_file
+
+YIELD = "bonds.model.yield_stress"
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ({"vary": {YIELD: []}}, "vary.bonds.model.yield_stress"),
+        ({"vary": {YIELD: {"from": "1 MPa"}}}, "a range needs 'from' and 'to'"),
+        ({"vary": {YIELD: {"from": "1 MPa", "to": 3, "values": [1]}}}, "give one of"),
+        ({"vary": {YIELD: {"from": "1 MPa", "to": "3 mm", "points": 3}}}, "not of one dimension"),
+        ({"vary": {YIELD: {"from": "0 MPa", "to": "3 MPa", "points": 3, "spacing": "log"}}}, "none of them 0"),
+        ({"vary": {YIELD: {"from": "1 MPa", "to": "3 MPa"}}}, "a range without 'points' needs a design that draws"),
+        ({"vary": {YIELD: {"distribution": "normal", "mean": 1, "deviation": 2}}}, "a distribution needs a design"),
+        ({"vary": {YIELD: {"distribution": "normal", "mean": 1}}}, "needs 'mean' and 'deviation'"),
+        ({"vary": {YIELD: [1]}, "design": "sobol"}, "design 'sobol' needs 'points'"),
+        ({"vary": {YIELD: [1]}, "points": 3}, "'points' belongs to the designs"),
+        ({"vary": {YIELD: ["1 MPa", "2 MPa"], "particles.seed": [1]}, "design": "together"}, "as many values on every"),
+        ({"vary": {"bonds.model.yield_stres": ["1 MPa"]}}, "did you mean 'yield_stress'?"),
+        ({"vary": {"bnods.model": ["1 MPa"]}}, "bnods"),
+        ({"vary": {YIELD: ["1 mm"]}}, "'1 mm' is a length; a stress is needed"),
+        ({"set": {"time.end.strain": -1}}, "set: "),
+        ({"variants": {"weak": {YIELD: "x"}}}, "variants.weak: "),
+        ({"vary": {"m": {"keys": {YIELD: 2}, "values": ["soft"]}}}, "cannot be multiplied"),
+        ({"repeets": 2}, "did you mean 'repeats'?"),
+        ({"grain": "any"}, "'per_repeat'"),
+        ({"expect": [{"says": "x", "check": "grows"}]}, "needs a 'measure'"),
+        ({"expect": [{"says": "x", "check": "equals", "measure": "drops"}]}, "'value' belongs to 'equals'"),
+        ({"expect": [{"says": "x", "check": "larger", "measure": "drops"}]}, "'than' belongs to"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_place(tmp_path: Path, keys: dict[str, Any], told: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        tasks(study(tmp_path, **keys))
+    assert told in str(caught.value)
+    assert "try.yaml" in str(caught.value)
+
+
+def test_a_base_that_is_not_there_is_told(tmp_path: Path) -> None:
+    file = study_file(tmp_path)
+    (tmp_path / "base.yaml").unlink()
+    with pytest.raises(ConfigError, match=r"base: 'base\.yaml': no such file"):
+        load_study(file)
+
+
+def test_statements_about_axes_that_do_not_exist_are_refused(tmp_path: Path) -> None:
+    expect = [{"says": "x", "check": "grows", "measure": "drops", "along": "bonds.model.yield"}]
+    with pytest.raises(ConfigError, match=r"expect\.0\.along: .*did you mean 'bonds\.model\.yield_stress'"):
+        study(tmp_path, vary={YIELD: [1e6]}, expect=expect)
+    expect = [{"says": "x", "check": "same", "measure": "peak", "where": {YIELD: 1e6}}]
+    with pytest.raises(ConfigError, match=r"expect\.0\.measure: .*'peak'"):
+        study(tmp_path, vary={YIELD: [1e6]}, expect=expect)
+
+
+def test_a_study_without_axes_is_repeats_alone(tmp_path: Path) -> None:
+    assert points(study(tmp_path)) == [()]
+    assert len(tasks(study(tmp_path, repeats=3, grain="per_repeat"))) == 3

@@ -1,0 +1,103 @@
+"""Each check gives each verdict where it should; statistics are those of the textbook."""
+
+from __future__ import annotations
+
+from math import isinf
+from typing import Any
+
+import numpy as np
+import pytest
+
+from clast.studies.axis import Setting
+from clast.studies.expectation_config import Expectation
+from clast.studies.measures import Curve
+from clast.studies.statistics import statistic
+from clast.studies.table import Row, Table
+from clast.studies.tasks import Task
+from clast.studies.verdict import NOT_REPRODUCED, OPEN, REPRODUCED, judge
+
+STRAIN = np.linspace(0.0, 0.2, 50)
+
+
+def table(mean: Any, scatter: float, repeats: int = 4, points: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)) -> Table:
+    """Return runs whose measure is a function of x, with some scatter; curves are straight lines of that slope."""
+    random = np.random.default_rng(2)
+    rows = []
+    for k, x in enumerate(points):
+        for repeat in range(repeats):
+            y = float(mean(x) + scatter * random.normal())
+            task = Task(f"{x}-{repeat}", "", k, repeat, (Setting("x", str(x), x, {}),), "")
+            curve = Curve(STRAIN, y * STRAIN, y * STRAIN, 0.0 * STRAIN, 1)
+            rows.append(Row(task, "done", "", {"m": y}, curve))
+    return Table(rows)
+
+
+def verdict(found: Table, **keys: Any) -> str:
+    """Return what one statement is judged to be."""
+    return judge(found, [Expectation.model_validate({"says": "so", **keys})])[0].verdict
+
+
+@pytest.mark.parametrize(
+    ("mean", "scatter", "expected"),
+    [
+        (lambda x: x, 0.2, REPRODUCED),
+        (lambda x: -x, 0.2, NOT_REPRODUCED),
+        (lambda x: 5.0, 0.2, OPEN),
+        (lambda x: x if x < 4 else 1.0, 0.1, NOT_REPRODUCED),  # turned round at the end
+    ],
+)
+def test_growth(mean: Any, scatter: float, expected: str) -> None:
+    assert verdict(table(mean, scatter), check="grows", measure="m") == expected
+
+
+def test_a_fall_is_growth_upside_down() -> None:
+    assert verdict(table(lambda x: -x, 0.2), check="falls", measure="m") == REPRODUCED
+    assert verdict(table(lambda x: x, 0.2), check="falls", measure="m") == NOT_REPRODUCED
+
+
+@pytest.mark.parametrize("measure", ["m", "curves"])
+def test_no_influence(measure: str) -> None:
+    same = {"check": "same", "measure": measure, "within": 0.1}
+    assert verdict(table(lambda x: 5.0, 0.2), **same) == REPRODUCED
+    assert verdict(table(lambda x: 5.0 + x, 0.2), **same) == NOT_REPRODUCED
+    assert verdict(table(lambda x: 5.0, 4.0, repeats=2), **same) == OPEN
+    assert verdict(table(lambda x: 5.0 + 0.02 * x, 0.001), **same) == REPRODUCED  # found, but below the margin
+
+
+def test_points_are_compared_within_repeats_which_share_their_seeds() -> None:
+    """Large differences between repeats do not hide a small one between points."""
+    rows = []
+    for k, x in enumerate((1.0, 2.0)):
+        for repeat in range(6):
+            task = Task(f"{x}-{repeat}", "", k, repeat, (Setting("x", str(x), x, {}),), "")
+            rows.append(Row(task, "done", "", {"m": 10.0 * (repeat + 1) + 8.0 * x}))
+    assert verdict(Table(rows), check="same", measure="m", within=0.05) == NOT_REPRODUCED
+
+
+def test_a_value() -> None:
+    near = {"check": "equals", "measure": "m", "within": 0.1}
+    assert verdict(table(lambda x: 5.0, 0.2), value=5.2, **near) == REPRODUCED
+    assert verdict(table(lambda x: 5.0, 0.2), value=8.0, **near) == NOT_REPRODUCED
+    assert verdict(table(lambda x: 5.0, 5.0, repeats=2, points=(1.0,)), value=9.0, **near) == OPEN
+
+
+def test_one_selection_against_another() -> None:
+    where = {"where": {"x": {"above": 2}}, "than": {"x": {"at_most": 2}}, "measure": "m"}
+    assert verdict(table(lambda x: x, 0.2), check="larger", **where) == REPRODUCED
+    assert verdict(table(lambda x: x, 0.2), check="smaller", **where) == NOT_REPRODUCED
+    assert verdict(table(lambda x: 1.0, 0.2), check="larger", **where) == OPEN
+
+
+def test_what_is_missing_is_not_decidable() -> None:
+    empty = Table([Row(Task("a", "", 0, 0, (Setting("x", "1", 1.0, {}),), ""), "failed", "for a reason")])
+    for check in ("grows", "falls", "same"):
+        assert verdict(empty, check=check, measure="m") == OPEN
+    assert verdict(empty, check="equals", measure="m", value=1.0) == OPEN
+    assert verdict(empty, check="larger", measure="m", where={"x": 1}, than={"x": 2}) == OPEN
+
+
+def test_the_interval_is_students() -> None:
+    found = statistic([1.0, 2.0, 3.0, 4.0])
+    assert (found.mean, found.deviation) == pytest.approx((2.5, 1.2909944))
+    assert (found.low, found.high) == pytest.approx((2.5 - 2.0542, 2.5 + 2.0542), abs=1e-3)
+    assert isinf(statistic([1.0]).high)
