@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from clast.cli_studies import STUDY_COMMANDS, change_option
 from clast.errors import ClastError
 
 
@@ -53,7 +54,6 @@ def _told(error: Exception) -> tuple[str, int] | None:
 
 
 _file = click.argument("file", type=click.Path(path_type=Path))
-_set = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Change one value.")
 _plugin = click.option(
     "--plugin", "files", multiple=True, type=click.Path(path_type=Path), help="A Python file with a plugin."
 )
@@ -68,7 +68,7 @@ def main() -> None:
 @main.command()
 @_file
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the run.")
-@_set
+@change_option
 @click.option(
     "--threads",
     type=click.IntRange(min=1),
@@ -85,7 +85,7 @@ def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: in
 
 @main.command()
 @_file
-@_set
+@change_option
 @click.option("--build", is_flag=True, help="Pack the particles and tell the exact numbers.")
 def check(file: Path, overrides: tuple[str, ...], build: bool) -> None:
     """Validate FILE and tell what running it will cost."""
@@ -164,7 +164,7 @@ def view(folder: Path) -> None:
 @click.option("--bond-model", metavar="NAME", help="Put this bond model there.")
 @click.option("--integrator", metavar="NAME", help="Put this integrator there.")
 @_plugin
-@_set
+@change_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 @click.option(
     "--docs",
@@ -245,41 +245,5 @@ def bench(
             ctx.exit(1)
 
 
-@main.command()
-@click.argument("file", metavar="STUDY", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the study; runs/NAME, if not given.")
-@_set
-@click.option("--workers", type=click.IntRange(min=1), show_default="one a processor", help="Runs at a time.")
-@click.option("--executor", type=click.Choice(["local", "dask"]), default="local", show_default=True)
-@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler, as tcp://head:8786; else one on this machine.")
-@click.option("--prepare", "way", flag_value="prepare", help="Only write the scene of every run, for a job array.")
-@click.option("--collect", "way", flag_value="collect", help="Only gather the runs that are there.")
-@click.pass_context
-def sweep(
-    ctx: click.Context,
-    /,
-    file: Path,
-    output: Path | None,
-    overrides: tuple[str, ...],
-    workers: int | None,
-    executor: str,
-    scheduler: str | None,
-    way: str | None,
-) -> None:
-    """Run the study in STUDY: one scene with values varied, in parallel; what is done is not repeated."""
-    from clast.commands import sweep as sweep_command
-    from clast.results.watch import stoppable
-    from clast.studies import executors
-    from clast.studies.config import load_study
-
-    study = load_study(file, overrides)
-    folder = output or Path("runs") / study.study
-    if way == "prepare":
-        sweep_command.print_prepared(folder, sweep_command.prepare(study, folder))
-        return
-    maker = executors.local(workers) if executor == "local" else executors.dask(scheduler, workers)
-    with stoppable():
-        outcome = sweep_command.sweep(study, folder, None if way == "collect" else maker)
-    sweep_command.print_outcome(outcome)
-    if sweep_command.failures(outcome):
-        ctx.exit(1)
+for _command in STUDY_COMMANDS:
+    main.add_command(_command)

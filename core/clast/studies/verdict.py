@@ -90,6 +90,8 @@ def trend(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[
     sign = 1.0 if expectation.check == "grows" else -1.0
     groups = [[sign * y for x, y in pairs if x == number and y is not None] for number in numbers]
     x = np.concatenate([[number] * len(group) for number, group in zip(numbers, groups, strict=True)])
+    if np.ptp(np.concatenate(groups)) == 0.0:
+        return OPEN, f"{expectation.measure} is {sign * groups[0][0]:.4g} in all {len(x)} runs"
     rho, chance = spearmanr(x, np.concatenate(groups))
     means = [sign * float(np.mean(group)) for group in groups]
     told = f"{', '.join(f'{m:.4g}' for m in means)} ({expectation.measure}); rank correlation {sign * rho:+.2f}"

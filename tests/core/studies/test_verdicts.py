@@ -50,6 +50,11 @@ def test_growth(mean: Any, scatter: float, expected: str) -> None:
     assert verdict(table(mean, scatter), check="grows", measure="m") == expected
 
 
+def test_a_measure_that_is_the_same_everywhere_has_no_trend() -> None:
+    assert verdict(table(lambda x: 5.0, 0.0), check="grows", measure="m") == OPEN
+    assert verdict(table(lambda x: 5.0, 0.0), check="same", measure="m") == REPRODUCED
+
+
 def test_a_fall_is_growth_upside_down() -> None:
     assert verdict(table(lambda x: -x, 0.2), check="falls", measure="m") == REPRODUCED
     assert verdict(table(lambda x: x, 0.2), check="falls", measure="m") == NOT_REPRODUCED

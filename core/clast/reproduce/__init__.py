@@ -1,0 +1,1 @@
+"""Reproductions: all studies of a publication, run by one command and told on one page."""

@@ -1,0 +1,63 @@
+"""What a page tells of one study: its figure, its points, and what becomes of its statements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from clast.studies.outcome import StudyOutcome
+from clast.studies.verdict import NOT_REPRODUCED, OPEN, REPRODUCED, Verdict
+from clast.studies.work import DONE
+
+MARKS = {REPRODUCED: "**reproduced**", NOT_REPRODUCED: "not reproduced", OPEN: "not decidable"}
+
+
+def section(outcome: StudyOutcome, image: str | None) -> str:
+    """Return the Markdown of one study; ``image`` is its figure as seen from the page."""
+    parts = [f"![{outcome.folder.name}]({image})"] if image is not None else []
+    heads, rows = outcome.point_table()
+    parts.append(table(heads, rows))
+    lost = [row for row in outcome.table.rows if row.state != DONE]
+    if lost:
+        counts = {row.state: sum(each.state == row.state for each in lost) for row in lost}
+        told = ", ".join(f"{count} {state}" for state, count in counts.items())
+        parts.append(f"Of {len(outcome.table.rows)} runs: {told}. {reasons(outcome)}".rstrip())
+    if outcome.verdicts:
+        rows = [
+            [each.expectation.says, each.variant or "–", MARKS[each.verdict], each.evidence]
+            for each in outcome.verdicts
+        ]
+        parts.append(table(["statement", "setting", "verdict", "numbers (SI)"], rows))
+    return "\n\n".join(parts)
+
+
+def reasons(outcome: StudyOutcome) -> str:
+    """Return why runs failed, each reason once with the values of its first run."""
+    found: dict[str, str] = {}
+    for row in outcome.table.rows:
+        if row.reason:
+            values = ", ".join(f"{each.axis} {each.label}" for each in row.task.settings)
+            found.setdefault(row.reason.split(": ", 1)[-1], values)
+    return " ".join(f"{values}: {reason}." for reason, values in list(found.items())[:3])
+
+
+def statements(verdicts: Mapping[str, Sequence[Verdict]]) -> str:
+    """Return one table of all statements: a line each, a column for every setting.
+
+    Parameters
+    ----------
+    verdicts : mapping
+        Name of a study -> its verdicts.
+    """
+    settings = list(dict.fromkeys(each.variant for every in verdicts.values() for each in every))
+    rows = []
+    for study, every in verdicts.items():
+        for says in dict.fromkeys(each.expectation.says for each in every):
+            given = {each.variant: MARKS[each.verdict] for each in every if each.expectation.says == says}
+            rows.append([study, says, *(given.get(setting, "") for setting in settings)])
+    return table(["study", "statement", *(setting or "verdict" for setting in settings)], rows)
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a Markdown table."""
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
