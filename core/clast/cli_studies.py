@@ -36,11 +36,12 @@ def sweep(
     from clast.results.watch import stoppable
     from clast.studies import executors
     from clast.studies.config import load_study
+    from clast.studies.prepare import prepare
 
     study = load_study(file, overrides)
     folder = output or Path("runs") / study.study
     if way == "prepare":
-        sweep_command.print_prepared(folder, sweep_command.prepare(study, folder))
+        sweep_command.print_prepared(folder, prepare(study, folder))
         return
     maker = executors.local(workers) if executor == "local" else executors.dask(scheduler, workers)
     with stoppable():
@@ -81,4 +82,21 @@ def reproduce(
     click.echo(f"wrote {output}")
 
 
-STUDY_COMMANDS = (sweep, reproduce)
+@click.command()
+@click.argument("file", metavar="TASK", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the runs; runs/NAME, if not given.")
+@change_option
+@_workers
+def calibrate(file: Path, output: Path | None, overrides: tuple[str, ...], workers: int | None) -> None:
+    """Fit the parameters that TASK names to what was measured; what is done is not repeated."""
+    from clast.calibration.config import load_calibration
+    from clast.commands import calibrate as calibrate_command
+    from clast.results.watch import stoppable
+    from clast.studies import executors
+
+    config = load_calibration(file, overrides)
+    with stoppable():
+        calibrate_command.calibrate(config, output or Path("runs") / config.calibration, executors.local(workers))
+
+
+STUDY_COMMANDS = (sweep, calibrate, reproduce)

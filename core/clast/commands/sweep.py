@@ -8,54 +8,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from clast.config.yaml_loader import dump_yaml
-from clast.errors import RunError
 from clast.forecast import duration
-from clast.results.whole_file import whole_file
 from clast.studies import layout
 from clast.studies.conduct import Audience, conduct, states
 from clast.studies.config import StudyConfig
-from clast.studies.executors import Maker
+from clast.studies.executors import Maker, Workers
 from clast.studies.outcome import StudyOutcome, conclude
-from clast.studies.tasks import Task, tasks
+from clast.studies.prepare import prepare
+from clast.studies.tasks import Task
 from clast.studies.verdict import NOT_REPRODUCED, OPEN, REPRODUCED
 from clast.studies.work import DONE, FAILED, Result
 
 PLAIN_EVERY = 5.0
 COLOURS = {REPRODUCED: "green", NOT_REPRODUCED: "red", OPEN: "yellow"}
-
-
-def prepare(study: StudyConfig, folder: Path) -> list[Task]:
-    """Write the scene of every run, and the list of all, into a study's folder.
-
-    Raises
-    ------
-    ConfigError
-        A value that the scene does not allow.
-    RunError
-        If the folder holds another study.
-    """
-    found = tasks(study)
-    _refuse_another(study, folder)
-    (folder / "runs").mkdir(parents=True, exist_ok=True)
-    (folder / "scenes").mkdir(exist_ok=True)
-    for task in {task.name: task for task in found}.values():
-        file = layout.scene_of(folder, task.name)
-        if not file.exists():
-            with whole_file(file) as draft:
-                draft.write_text(task.scene, encoding="utf-8")
-    with whole_file(folder / layout.LIST) as draft:
-        draft.write_text("".join(f"{name}\n" for name in dict.fromkeys(task.name for task in found)), encoding="utf-8")
-    with whole_file(folder / layout.STUDY) as draft:
-        draft.write_text(dump_yaml(study.document.data), encoding="utf-8")
-    return found
-
-
-def _refuse_another(study: StudyConfig, folder: Path) -> None:
-    if not folder.is_dir() or not any(folder.iterdir()):
-        return
-    if not (folder / layout.STUDY).exists():
-        raise RunError(f"{folder}: holds something else than a study; choose another folder with -o")
 
 
 def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome:
@@ -81,8 +46,8 @@ def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome
     results: dict[str, Result] = {}
     try:
         if maker is not None:
-            with console_audience() as audience:
-                results = conduct(folder, names, maker, audience)
+            with console_audience() as audience, Workers(maker) as workers:
+                results = conduct(folder, names, workers, audience)
     finally:
         outcome = conclude(study, folder, found, states(folder, names, results))
     return outcome
@@ -93,6 +58,7 @@ class Lines(Audience):
 
     def __init__(self) -> None:
         self.asked = self.done = self.failed = self.here = 0
+        self.whole = False
         self.begun = self.told = time.monotonic()
 
     def __enter__(self) -> Lines:
@@ -102,11 +68,17 @@ class Lines(Audience):
     def __exit__(self, *reason: object) -> None:
         """End."""
 
+    def expect(self, asked: int) -> None:
+        """Hear how many runs there will be in all, where they come bit by bit."""
+        self.asked, self.whole = asked, True
+        self.say(f"{asked} runs")
+
     def begins(self, asked: int, done: int) -> None:
         """Tell how much there is to do."""
-        self.asked, self.done = asked, done
-        self.begun = time.monotonic()
-        self.say(f"{asked} runs" + (f", {done} of them done already" if done else ""))
+        self.done += done
+        if not self.whole:
+            self.asked, self.begun = asked, time.monotonic()
+            self.say(f"{asked} runs" + (f", {done} of them done already" if done else ""))
 
     def ended(self, result: Result) -> None:
         """Tell how a run ended; failures at once."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import shutil
 from collections import Counter, deque
 from collections.abc import Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
 from contextlib import suppress
 from pathlib import Path
 
 from clast.errors import RunError
-from clast.studies.executors import Maker
+from clast.studies.executors import Workers
 from clast.studies.layout import STOP, run_of
 from clast.studies.work import DONE, FAILED, Result, is_done, perform
 
@@ -40,7 +40,7 @@ class Audience:
         """Hear, now and then, that runs go on."""
 
 
-def conduct(folder: Path, names: Sequence[str], maker: Maker, audience: Audience) -> dict[str, Result]:
+def conduct(folder: Path, names: Sequence[str], workers: Workers, audience: Audience) -> dict[str, Result]:
     """Do all runs of a study that are not done yet.
 
     Parameters
@@ -48,8 +48,7 @@ def conduct(folder: Path, names: Sequence[str], maker: Maker, audience: Audience
     folder : Path
         Of the study, with the scene of every run.
     names : sequence of str
-    maker : callable
-        Makes an executor.
+    workers : Workers
     audience : Audience
 
     Returns
@@ -71,7 +70,7 @@ def conduct(folder: Path, names: Sequence[str], maker: Maker, audience: Audience
     (folder / STOP).unlink(missing_ok=True)
     while left:
         alone = strikes[left[0]] > 0  # a run with which a worker died shows by itself whether it was the reason
-        shift = _Shift(folder, maker(), 1 if alone else AHEAD)
+        shift = _Shift(folder, workers, 1 if alone else AHEAD)
         results, lost = shift.work(left, audience, only_one=alone)
         found |= results
         for name in lost:
@@ -89,10 +88,10 @@ _DIED = "{count} workers died with this run: out of memory, or a crash in a libr
 
 
 class _Shift:
-    """One executor, until its work is done or its workers die."""
+    """The same workers, until their work is done or one of them dies."""
 
-    def __init__(self, folder: Path, executor: Executor, ahead: int) -> None:
-        self.folder, self.executor, self.ahead = folder, executor, ahead
+    def __init__(self, folder: Path, workers: Workers, ahead: int) -> None:
+        self.folder, self.workers, self.ahead = folder, workers, ahead
         self.running: dict[Future[Result], str] = {}
         self.found: dict[str, Result] = {}
 
@@ -106,17 +105,16 @@ class _Shift:
                     self._hand_out(left)
             return self.found, []
         except BrokenExecutor:
+            self.workers.drop()
             return self.found, self._lost(left)
         except KeyboardInterrupt:
             self._stop(audience)
             raise
-        finally:
-            self.executor.shutdown(wait=True, cancel_futures=True)
 
     def _hand_out(self, left: deque[str]) -> None:
         while left and len(self.running) < self.ahead:
             self._look_for_room()
-            future = self.executor.submit(perform, str(self.folder), left[0])
+            future = self.workers.take().submit(perform, str(self.folder), left[0])
             self.running[future] = left.popleft()
 
     def _look_for_room(self) -> None:

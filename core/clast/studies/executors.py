@@ -19,6 +19,38 @@ WAIT = "60 s"
 """How long a scheduler may take to answer."""
 
 
+class Workers:
+    """Workers that live from the first run to the last, and are replaced when they die.
+
+    Parameters
+    ----------
+    maker : callable
+        Makes an executor.
+    """
+
+    def __init__(self, maker: Maker) -> None:
+        self.maker = maker
+        self.executor: Executor | None = None
+
+    def __enter__(self) -> Workers:
+        return self
+
+    def __exit__(self, *reason: object) -> None:
+        self.drop()
+
+    def take(self) -> Executor:
+        """Return the executor, made when there is none."""
+        if self.executor is None:
+            self.executor = self.maker()
+        return self.executor
+
+    def drop(self) -> None:
+        """Send the workers home; what has not begun is forgotten."""
+        executor, self.executor = self.executor, None
+        if executor is not None:
+            executor.shutdown(wait=True, cancel_futures=True)
+
+
 def local(workers: int | None = None) -> Maker:
     """Return a maker of processes on this machine that live as long as the study: one a processor, if not given."""
     count = workers or processors()

@@ -6,7 +6,7 @@ import hashlib
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from clast.config.document import dotted
 from clast.config.scene import SceneConfig
@@ -45,6 +45,13 @@ class Task:
     scene: str
 
 
+class Owner(Protocol):
+    """The file that asks for runs."""
+
+    def problem(self, path: KeyPath, text: str) -> ConfigError:
+        """Error with its place in the file in front."""
+
+
 def tasks(study: StudyConfig) -> list[Task]:
     """Return all runs of a study, those of one variant and point after each other.
 
@@ -59,21 +66,34 @@ def tasks(study: StudyConfig) -> list[Task]:
             study, study.scene, {**QUIET, **study.set, **own}, ("variants", variant) if variant else ("set",)
         )
         for number, point in enumerate(points(study)):
-            here = scene
-            for setting in point:
-                here = changed(study, here, setting.changes, ("vary", setting.axis))
-            for repeat in range(study.repeats):
-                again = here.changed(shifted_seeds(here, study, number, repeat))
-                found.append(task(again, variant, number, repeat, point))
+            here = at_point(study, scene, point, "vary")
+            found += repeated(here, variant, number, point, study.repeats, study.grain)
     return found
 
 
-def changed(study: StudyConfig, scene: SceneConfig, changes: Mapping[str, Any], place: KeyPath) -> SceneConfig:
-    """Return a scene with some values changed; what is wrong with them is told with its place in the study."""
+def at_point(owner: Owner, scene: SceneConfig, point: Point, section: str) -> SceneConfig:
+    """Return a scene with the settings of a point, whose axes stand in a section of the file that asks for them."""
+    for setting in point:
+        scene = changed(owner, scene, setting.changes, (section, setting.axis))
+    return scene
+
+
+def repeated(scene: SceneConfig, variant: str, number: int, point: Point, repeats: int, grain: str) -> list[Task]:
+    """Return the repeats of a point, each with seeds of its own."""
+    found = []
+    for repeat in range(repeats):
+        shift = number * repeats + repeat if grain == "per_run" else repeat
+        again = scene.changed(shifted_seeds(scene, shift, same_grain=grain == "same"))
+        found.append(task(again, variant, number, repeat, point))
+    return found
+
+
+def changed(owner: Owner, scene: SceneConfig, changes: Mapping[str, Any], place: KeyPath) -> SceneConfig:
+    """Return a scene with some values changed; what is wrong with them is told with its place in the file."""
     try:
         return scene.changed(changes) if changes else scene
     except ConfigError as error:
-        raise study.problem(place, str(error)) from None
+        raise owner.problem(place, str(error)) from None
 
 
 def task(scene: SceneConfig, variant: str, point: int, repeat: int, settings: Point) -> Task:
@@ -85,16 +105,12 @@ def task(scene: SceneConfig, variant: str, point: int, repeat: int, settings: Po
     return Task(f"{slug}-{digest}" if slug else digest, variant, point, repeat, settings, text)
 
 
-def shifted_seeds(scene: SceneConfig, study: StudyConfig, point: int, repeat: int) -> dict[str, int]:
-    """Return the seeds of one repeat: those of the scene, plus its number; plus that of the run, with ``per_run``.
-
-    Where the grain stays the same, the seeds of its packing do, too.
-    """
-    shift = point * study.repeats + repeat if study.grain == "per_run" else repeat
+def shifted_seeds(scene: SceneConfig, shift: int, same_grain: bool) -> dict[str, int]:
+    """Return all seeds of a scene plus a shift, but those of its packing where the grain stays the same."""
     if shift == 0:
         return {}
     every = _seeds(scene.resolved(), ())
-    return {dotted(path): seed + shift for path, seed in every if study.grain != "same" or path[0] != "particles"}
+    return {dotted(path): seed + shift for path, seed in every if not same_grain or path[0] != "particles"}
 
 
 def _seeds(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, int]]:

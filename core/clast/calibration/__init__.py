@@ -1,0 +1,1 @@
+"""Calibration: parameters of a scene fitted to what was measured."""

@@ -1,0 +1,190 @@
+"""Calibrations find what is known: the modulus of a sphere between two plates, and what cannot be found."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from click.testing import CliRunner
+
+from clast import Simulation, load, run_scene
+from clast.calibration.config import load_calibration
+from clast.calibration.identify import identify
+from clast.calibration.proposal import misfit, next_point, optimum
+from clast.calibration.responses import Goal, Response
+from clast.calibration.surrogate import fit
+from clast.cli import main
+from clast.errors import ConfigError
+from clast.studies.measures import measure
+from tests.scenes import write
+
+SPHERE = """
+name: sphere
+materials:
+  glass: {density: 2500 kg/m3, young_modulus: 420 MPa, poisson_ratio: 0.2}
+  plate: {density: 2500 kg/m3, young_modulus: 1 GPa, poisson_ratio: 0.2}
+particles: {type: explicit, material: glass, particles: [{position: [0, 0, 0], radius: 1 mm}]}
+contacts: {law: hertz_mindlin, pairs: {default: {restitution: 0.2, sliding_friction: 0.3}}}
+walls:
+  upper:
+    {type: plane, material: plate, point: [0, 0, 1 mm], normal: [0, 0, -1],
+     motion: {type: constant_velocity, velocity: [0, 0, -0.2 m/s]}}
+  lower: {type: plane, material: plate, point: [0, 0, -1 mm], normal: [0, 0, 1]}
+compression: {upper: upper, lower: lower, height: 2 mm, diameter: 2 mm}
+time: {step: 1e-6 s, end: {strain: 0.05}}
+output: {samples: 60, frames: 0, writers: []}
+"""
+GLASS, PLATE = "materials.glass.young_modulus", "materials.plate.young_modulus"
+BOUNDS = {"from": "100 MPa", "to": "1000 MPa"}
+
+
+def calibration_file(folder: Path, **keys: Any) -> Path:
+    """Write the scene and a calibration of it."""
+    write(folder, SPHERE, "sphere.yaml")
+    given = {"base": "sphere.yaml", "parameters": {GLASS: BOUNDS}, "repeats": 1, "budget": 10, **keys}
+    return write(folder, yaml.safe_dump(given, sort_keys=False), "fit.yaml")
+
+
+def measured(folder: Path, **changes: Any) -> dict[str, float]:
+    """Return what the sphere really gives."""
+    run_scene(load(write(folder, SPHERE, "sphere.yaml")).changed(changes), folder / "truth")
+    return {name: value for name, value in measure(folder / "truth")[0].items() if value is not None}
+
+
+def calibrate(file: Path, folder: Path) -> Any:
+    """Calibrate as a user does."""
+    return CliRunner().invoke(main, ["calibrate", str(file), "-o", str(folder), "--workers", "2"])
+
+
+def test_a_modulus_is_found_from_a_force_and_the_scene_that_is_left_has_it(tmp_path: Path) -> None:
+    target = {"peak_force_N": {"value": measured(tmp_path)["peak_force_N"], "within": 0.01}}
+    file = calibration_file(tmp_path, targets=target)
+    told = calibrate(file, tmp_path / "out")
+    assert told.exit_code == 0, told.output
+    fitted = load(tmp_path / "out" / "fitted.yaml")
+    assert fitted.materials["glass"].young_modulus == pytest.approx(420e6, rel=0.02)
+    assert Simulation(fitted).last_step > 0
+    page = (tmp_path / "out" / "calibration.md").read_text()
+    assert f"| {GLASS} | 1e+08 to 1e+09 | 4.2" in page.replace("4.1", "4.2")
+    assert (tmp_path / "out" / "fit.png").read_bytes().startswith(b"\x89PNG")
+    before = {each: each.stat().st_mtime_ns for each in (tmp_path / "out" / "runs").rglob("summary.json")}
+    assert len(before) == 10
+    assert calibrate(file, tmp_path / "out").exit_code == 0
+    assert before == {each: each.stat().st_mtime_ns for each in (tmp_path / "out" / "runs").rglob("summary.json")}
+
+
+def test_a_modulus_is_found_from_a_whole_curve(tmp_path: Path) -> None:
+    measured(tmp_path)
+    with (tmp_path / "truth" / "curves.csv").open(newline="") as file:
+        rows = [(row["strain"], row["stress_Pa"]) for row in csv.DictReader(file)]
+    write(tmp_path, "strain,stress_Pa\n" + "\n".join(",".join(row) for row in rows[::3]), "measured.csv")
+    told = calibrate(calibration_file(tmp_path, targets={"curve": {"file": "measured.csv"}}), tmp_path / "out")
+    assert told.exit_code == 0, told.output
+    assert load(tmp_path / "out" / "fitted.yaml").materials["glass"].young_modulus == pytest.approx(420e6, rel=0.05)
+
+
+def test_moduli_that_only_act_together_are_said_to(tmp_path: Path) -> None:
+    """Two bodies in contact have one modulus: 1/E* is the sum of both."""
+    target = {"peak_force_N": {"value": measured(tmp_path)["peak_force_N"], "within": 0.02}}
+    file = calibration_file(tmp_path, parameters={GLASS: BOUNDS, PLATE: BOUNDS}, targets=target, budget=20)
+    told = calibrate(file, tmp_path / "out")
+    assert f"{GLASS} and {PLATE} cannot be told apart" in told.output
+    assert "2 parameters, 1 targets" in (tmp_path / "out" / "calibration.md").read_text()
+
+
+def test_a_parameter_that_does_nothing_is_said_to(tmp_path: Path) -> None:
+    target = {"peak_force_N": {"value": measured(tmp_path)["peak_force_N"], "within": 0.02}}
+    friction = {"contacts.pairs.default.sliding_friction": {"from": 0, "to": 1}}
+    file = calibration_file(tmp_path, parameters={GLASS: BOUNDS} | friction, targets=target, budget=16)
+    told = calibrate(file, tmp_path / "out")
+    assert "contacts.pairs.default.sliding_friction has next to no influence" in told.output
+    assert "not determined" in told.output
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"targets": {}}, "targets: "),
+        ({"targets": {"peak_force_N": {}}}, "a target needs data"),
+        ({"targets": {"peak_forse_N": {"value": 1}}}, "did you mean 'peak_force_N'?"),
+        ({"targets": {"peak_force_N": {"value": "3 parsec"}}}, "parsec"),
+        ({"targets": {"peak_force_N": {"value": 0}}}, "must not be 0"),
+        ({"targets": {"peak_force_N": {"scatter": 1}}}, "scatter of peak_force_N cannot be told from 1 runs"),
+        ({"targets": {"curve": {"value": 1}}}, "'curve' needs it"),
+        ({"targets": {"curve": {"file": "none.csv"}}}, "'none.csv' cannot be read"),
+        ({"targets": {"curve": {"file": "sphere.yaml"}}}, "needs columns of numbers"),
+        ({"targets": {"drops": {"value": 1}}, "parameters": {GLASS: [1, 2]}}, "a parameter needs bounds"),
+        ({"targets": {"drops": {"value": 1}}, "parameters": {"materials.glas.young_modulus": BOUNDS}}, "'glas'"),
+        ({"targets": {"drops": {"value": 1}}, "budget": 4, "repeats": 2}, "at least 4 points"),
+        ({"targets": {"drops": {"value": 1}}, "budget": 1}, "must be at least 4"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_place(tmp_path: Path, keys: dict[str, Any], message: str) -> None:
+    told = calibrate(calibration_file(tmp_path, **keys), tmp_path / "out")
+    assert told.exit_code == 2, told.output
+    assert message in told.output
+    assert "fit.yaml" in told.output
+
+
+def test_runs_that_all_fail_end_in_a_sentence(tmp_path: Path) -> None:
+    file = calibration_file(tmp_path, targets={"peak_force_N": {"value": 1.0}}, set={"time.step": "1 s"})
+    told = calibrate(file, tmp_path / "out")
+    assert told.exit_code == 2
+    assert "only 0 points have a result for peak_force_N" in told.output
+
+
+def bowl(points: np.ndarray, noise: float) -> list[list[Response]]:
+    """Return two goals that are both met at (0.3, 0.6) only."""
+    random = np.random.default_rng(3)
+    exact = np.column_stack([points[:, 0] + points[:, 1], points[:, 0] * points[:, 1]])
+    return [[Response(float(x + noise * random.normal()), noise) for x in row] for row in exact]
+
+
+GOALS = [Goal("sum", "a", False, 0.9, 0.02), Goal("product", "b", False, 0.18, 0.02)]
+
+
+def test_points_are_proposed_where_the_goals_are_met() -> None:
+    from clast.studies.design import quantiles
+
+    points = quantiles("sobol", 10, 2, 1)
+    for k in range(8):
+        points = np.vstack([points, next_point(fit(points, bowl(points, 0.002), GOALS), points, k)])
+    found = optimum(fit(points, bowl(points, 0.002), GOALS), points, 1)
+    meets = misfit((np.array([[found[0] + found[1], found[0] * found[1]]]) - [0.9, 0.18]) / 0.02)
+    assert float(meets[0]) < 1.0
+
+
+def test_noise_is_not_taken_for_a_trend() -> None:
+    points = np.random.default_rng(1).random((12, 2))
+    noisy = fit(points, bowl(points, 0.2), GOALS)
+    _, deviation = noisy.predict(points)
+    assert (deviation[:, 0] * 0.02 > 0.03).all()
+
+
+def test_the_information_of_slopes_is_fishers() -> None:
+    sure = identify(np.array([[10.0, 0.0], [0.0, 20.0]]), np.ones(2))
+    assert sure.deviation == pytest.approx([(100 + 12) ** -0.5, (400 + 12) ** -0.5])
+    assert sure.loose == []
+    together = identify(np.array([[10.0, 10.0]]), np.ones(1))
+    assert together.loose == [[0, 1]]
+    nothing = identify(np.array([[10.0, 0.0]]), np.ones(1))
+    assert nothing.loose == [[1]]
+    assert nothing.deviation[1] == pytest.approx(12**-0.5)
+
+
+def test_a_calibration_is_the_same_every_time(tmp_path: Path) -> None:
+    target = {"peak_force_N": {"value": 5.0}}
+    file = calibration_file(tmp_path, targets=target, budget=8)
+    for name in ("one", "two"):
+        assert calibrate(file, tmp_path / name).exit_code == 0
+    for name in ("history.csv", "fitted.yaml"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="no such file"):
+        load_calibration(tmp_path / "none.yaml")
