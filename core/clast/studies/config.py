@@ -75,6 +75,11 @@ class StudyConfig(Params):
         return self._scene
 
     @property
+    def of_accidents(self) -> bool:
+        """Whether its points are drawn, or there is one point alone: all of its runs are a sample of something."""
+        return self.design in SPACE_FILLING or not self.vary
+
+    @property
     def variant_changes(self) -> dict[str, Mapping[str, Any]]:
         """Changes by the name of their variant; one without a name, where the study has none."""
         return dict(self.variants) or {"": {}}

@@ -48,6 +48,7 @@ class Expectation(Params):
         default_factory=dict
     )
     than: Annotated[Selection, Field(description="Runs that those are compared with")] = Field(default_factory=dict)
+    of: Annotated[Literal["mean", "deviation"], Field(description="What of the measure 'equals' is about")] = "mean"
     value: Annotated[Given | None, Field(description="What 'equals' expects")] = None
     within: Annotated[Number, Field(gt=0, description="Share by which 'same' and 'equals' may differ")] = 0.1
 

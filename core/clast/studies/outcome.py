@@ -63,6 +63,7 @@ def _cell(sample: Sequence[float], factor: float, decimals: int) -> str:
 
 def conclude(study: StudyConfig, folder: Path, tasks: Sequence[Task], states: Mapping[str, Result]) -> StudyOutcome:
     """Read all runs, and write tables, statistics, verdicts and plots."""
+    from clast.studies.ensemble import draw_weibull, write_ensemble
     from clast.studies.plots import draw_curves, draw_measures
 
     table = gather(folder, tasks, states)
@@ -78,4 +79,9 @@ def conclude(study: StudyConfig, folder: Path, tasks: Sequence[Task], states: Ma
         written.append(folder / "curves.png")
     if draw_measures(table, folder / "measures.png"):
         written.append(folder / "measures.png")
+    if study.of_accidents:
+        if write_ensemble(table, folder / layout.ENSEMBLE):
+            written.append(folder / layout.ENSEMBLE)
+        if draw_weibull(table, folder / "weibull.png"):
+            written.append(folder / "weibull.png")
     return StudyOutcome(folder, table, verdicts, written)

@@ -67,8 +67,13 @@ def _draw_variant(axis: Any, points: Sequence[tuple[int, list[Row]]], scene: Sce
         strain, stress, _ = curves(with_curves)
         mean, deviation = stress.mean(axis=0) / 1e6, stress.std(axis=0) / 1e6
         label = ", ".join(setting.label for setting in rows[0].task.settings)
-        axis.plot(100.0 * strain, mean, color=colour, linewidth=1.4, label=label if len(points) <= MOST else None)
+        if len(points) > MOST:
+            axis.plot(100.0 * strain, mean, color=colour, linewidth=0.6, alpha=0.5)
+            continue
+        axis.plot(100.0 * strain, mean, color=colour, linewidth=1.4, label=label)
         axis.fill_between(100.0 * strain, mean - deviation, mean + deviation, color=colour, alpha=0.15, linewidth=0.0)
+    if len(points) > MOST:
+        _draw_mean(axis, [row for _, rows in points for row in rows])
     for each in scene.reference:
         axis.errorbar(
             100.0 * each.strain,
@@ -85,6 +90,20 @@ def _draw_variant(axis: Any, points: Sequence[tuple[int, list[Row]]], scene: Sce
     if axis.get_legend_handles_labels()[0]:
         names = ", ".join(setting.axis for setting in points[0][1][0].task.settings)
         axis.legend(title=names or None, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3)
+
+
+def _draw_mean(axis: Any, rows: Sequence[Row]) -> None:
+    """Draw the mean of all curves, with the 95 % confidence band of that mean and one deviation."""
+    strain, stress, _ = curves(rows)
+    stress = stress[np.isfinite(stress).all(axis=1)] / 1e6
+    found = [statistic(column.tolist()) for column in stress.T]
+    mean, deviation, low, high = (
+        np.array([getattr(each, name) for each in found]) for name in ("mean", "deviation", "low", "high")
+    )
+    axis.plot(100.0 * strain, mean, color="black", linewidth=1.6, label=f"mean of {len(stress)}")
+    axis.fill_between(100.0 * strain, low, high, color="black", alpha=0.35, linewidth=0.0, label="its 95 % band")
+    for edge in (mean - deviation, mean + deviation):
+        axis.plot(100.0 * strain, edge, color="black", linewidth=0.7, linestyle=":")
 
 
 def draw_measures(table: Table, path: Path) -> bool:

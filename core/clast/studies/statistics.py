@@ -43,6 +43,21 @@ def statistic(values: Sequence[float], level: float = LEVEL) -> Statistic:
     return Statistic(mean, deviation, len(sample), mean - half, mean + half)
 
 
+def deviation_interval(found: Statistic, level: float = LEVEL) -> tuple[float, float]:
+    """Return the confidence interval of the deviation of a normal sample (chi square).
+
+    >>> low, high = deviation_interval(statistic([1.0, 2.0, 3.0]))
+    >>> round(low, 2), round(high, 2)
+    (0.52, 6.28)
+    """
+    from scipy.stats import chi2
+
+    free = found.runs - 1
+    ends = (float(chi2.ppf(0.5 + sign * 0.5 * level, free)) for sign in (1.0, -1.0))
+    low, high = (found.deviation * sqrt(free / end) for end in ends)
+    return low, high
+
+
 def values_of(rows: Sequence[Row], name: str) -> list[float]:
     """Return what runs measured; those that did not are left out."""
     return [value for row in rows if (value := row.measures.get(name)) is not None]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from clast.config.quantities import read_quantity
 from clast.results.whole_file import whole_file
 from clast.studies.expectation_config import CURVES, Expectation, Range, Selection
-from clast.studies.statistics import statistic, values_of
+from clast.studies.statistics import deviation_interval, statistic, values_of
 from clast.studies.table import Row, Table, curves
 
 REPRODUCED, NOT_REPRODUCED, OPEN = "reproduced", "not reproduced", "not decidable"
@@ -180,17 +180,21 @@ def _chance(data: Floats, repeat: Floats, point: Floats, labels: Floats) -> floa
 
 
 def equals(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[str, str]:
-    """Judge whether the mean is a value, by its confidence interval and the margin."""
+    """Judge whether the mean, or the deviation, is a value: by its confidence interval and the margin."""
     sample = values_of(rows, expectation.measure)
-    if not sample:
-        return OPEN, "no run has results"
+    if not sample or (expectation.of == "deviation" and len(sample) < 3):
+        return OPEN, "too few runs have results"
     value = read_quantity(expectation.value)[0]
     margin, found = expectation.within * abs(value), statistic(sample)
-    told = f"{found.mean:.4g} ± {found.deviation:.2g} ({expectation.measure}, {found.runs} runs) against {value:.4g}"
-    if abs(found.mean - value) <= margin:
+    got, low, high = found.mean, found.low, found.high
+    if expectation.of == "deviation":
+        got, (low, high) = found.deviation, deviation_interval(found)
+    told = f"{found.mean:.4g} ± {found.deviation:.2g} ({expectation.measure}, {found.runs} runs)"
+    told += f"; {expectation.of} between {low:.4g} and {high:.4g}" if len(sample) > 1 else ""
+    told += f" against {value:.4g}"
+    if abs(got - value) <= margin:
         return REPRODUCED, told
-    apart = found.low > value + margin or found.high < value - margin
-    return (NOT_REPRODUCED if apart else OPEN), told
+    return (NOT_REPRODUCED if low > value + margin or high < value - margin else OPEN), told
 
 
 def larger(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[str, str]:
