@@ -23,8 +23,7 @@ def calibrate(config: CalibrationConfig, folder: Path, maker: Maker) -> Fit:
     config : CalibrationConfig
     folder : Path
         Made when missing; runs that are done in it are not repeated.
-    maker : callable
-        Makes an executor.
+    maker : Maker
 
     Raises
     ------

@@ -27,8 +27,8 @@ def reproduce(
         Of the studies, one folder each.
     page : Path
         Markdown file; its figures lie beside it in ``img``.
-    maker : callable or None
-        Makes an executor; None only gathers what is there.
+    maker : Maker or None
+        None only gathers what is there.
     only : collection of str
         Studies that are run; what the others have is gathered.
 

@@ -31,8 +31,8 @@ def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome
     study : StudyConfig
     folder : Path
         Made when missing; runs that are done in it are not repeated.
-    maker : callable or None
-        Makes an executor; None only gathers what is there.
+    maker : Maker or None
+        None only gathers what is there.
 
     Raises
     ------
@@ -48,6 +48,7 @@ def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome
         if maker is not None:
             with console_audience() as audience, Workers(maker) as workers:
                 results = conduct(folder, names, workers, audience)
+                audience.close(maker.workers)
     finally:
         outcome = conclude(study, folder, found, states(folder, names, results))
     return outcome
@@ -59,6 +60,7 @@ class Lines(Audience):
     def __init__(self) -> None:
         self.asked = self.done = self.failed = self.here = 0
         self.whole = False
+        self.busy = 0.0
         self.begun = self.told = time.monotonic()
 
     def __enter__(self) -> Lines:
@@ -82,6 +84,7 @@ class Lines(Audience):
 
     def ended(self, result: Result) -> None:
         """Tell how a run ended; failures at once."""
+        self.busy += result.seconds
         self.done += result.state == DONE
         self.here += result.state == DONE
         self.failed += result.state == FAILED
@@ -98,6 +101,13 @@ class Lines(Audience):
         if time.monotonic() - self.told >= PLAIN_EVERY:
             self.told = time.monotonic()
             self.say(self.status())
+
+    def close(self, workers: int | None) -> None:
+        """Tell how long it took, and how much of that the workers were at their runs."""
+        seconds = time.monotonic() - self.begun
+        if self.here and workers is not None:
+            share = self.busy / (seconds * min(workers, self.here))
+            self.say(f"{self.here} runs in {duration(seconds)}; {workers} workers were busy {share:.0%} of the time")
 
     def status(self) -> str:
         """Return how many runs are done, and how long the rest may take."""

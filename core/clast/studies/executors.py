@@ -7,12 +7,18 @@ import signal
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor
 from multiprocessing import get_context
+from typing import NamedTuple
 
 from clast.engine.crew import processors
 from clast.errors import ConfigError, RunError
 
-Maker = Callable[[], Executor]
-"""Makes an executor; called again when its workers have died."""
+
+class Maker(NamedTuple):
+    """How to get an executor, which is asked for again when its workers have died; and how many those are, if known."""
+
+    make: Callable[[], Executor]
+    workers: int | None
+
 
 ALONE = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 WAIT = "60 s"
@@ -24,8 +30,7 @@ class Workers:
 
     Parameters
     ----------
-    maker : callable
-        Makes an executor.
+    maker : Maker
     """
 
     def __init__(self, maker: Maker) -> None:
@@ -41,7 +46,7 @@ class Workers:
     def take(self) -> Executor:
         """Return the executor, made when there is none."""
         if self.executor is None:
-            self.executor = self.maker()
+            self.executor = self.maker.make()
         return self.executor
 
     def drop(self) -> None:
@@ -54,7 +59,7 @@ class Workers:
 def local(workers: int | None = None) -> Maker:
     """Return a maker of processes on this machine that live as long as the study: one a processor, if not given."""
     count = workers or processors()
-    return lambda: ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
+    return Maker(lambda: ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin), count)
 
 
 def _begin() -> None:
@@ -96,7 +101,7 @@ def dask(scheduler: str | None, workers: int | None = None) -> Maker:
             raise RunError(f"no Dask scheduler answers at {scheduler}: {error}") from error
         return _Dask(client, scheduler is None)
 
-    return make
+    return Maker(make, None if scheduler is not None else workers or processors())
 
 
 class _Dask(Executor):
