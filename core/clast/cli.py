@@ -157,6 +157,24 @@ def view(folder: Path) -> None:
 
 
 @main.command()
+@click.argument("folders", metavar="RUN...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="The HTML file; by default report.html in the folder of RUN, for several in the working folder.",
+)
+def report(folders: tuple[Path, ...], output: Path | None) -> None:
+    """Write one HTML page about RUN, the folder of a run or a sweep; several runs stand side by side."""
+    from clast.commands import report as report_command
+    from clast.results.watch import stoppable
+
+    with stoppable():
+        report_command.report(folders, output)
+
+
+@main.command()
 @click.argument("cases", metavar="[CASE]...", nargs=-1)
 @click.option("--family", "families", multiple=True, metavar="NAME", help="All cases of a family.")
 @click.option("--list", "listed", is_flag=True, help="List all cases.")

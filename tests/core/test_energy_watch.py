@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from clast import Simulation, load, run_scene
-from clast.commands.run import summary_rows
 from clast.config.scene import SceneConfig
 from clast.errors import RunError
+from clast.results.in_words import summary_rows
 from clast.soundness.energy import Balance
 from tests.scenes import CRUSH, write
 

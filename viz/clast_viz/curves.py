@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from clast.results.run import Run
+
+TIME_UNITS = ((1.0, "s"), (1e3, "ms"), (1e6, "µs"), (1e9, "ns"))
 
 
 class Peak(NamedTuple):
@@ -19,6 +22,17 @@ class Peak(NamedTuple):
 def has_compression(run: Run) -> bool:
     """Tell whether the run has a stress–strain curve with at least two samples."""
     return "stress_Pa" in run.curves and len(run.curves["stress_Pa"]) > 1
+
+
+def time_axis(seconds: NDArray[np.float64]) -> tuple[NDArray[np.float64], str]:
+    """Return times in a unit in which they read well, and the label of their axis.
+
+    >>> time_axis(np.array([0.0, 2e-4]))
+    (array([  0., 200.]), 'time [µs]')
+    """
+    longest = float(np.max(seconds, initial=0.0))
+    factor, unit = next((each for each in TIME_UNITS if longest * each[0] >= 1.0), TIME_UNITS[-1])
+    return factor * seconds, f"time [{unit}]"
 
 
 def peak(run: Run) -> Peak:

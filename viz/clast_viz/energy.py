@@ -13,10 +13,11 @@ from clast.parts.params import Params
 from clast.parts.writer import Written
 from clast.results.curves import energies
 from clast.results.run import Run
-from clast_viz.curves import has_compression
+from clast_viz.curves import has_compression, time_axis
 from clast_viz.figure import STYLE, save
 
 FILE = "energy.png"
+Energies = dict[str, NDArray[np.float64]]
 SMALL = 1e-3
 """Share of the largest sum below which a term is left out of the picture."""
 
@@ -60,24 +61,48 @@ def write_energy(run: Run, params: EnergyParams, path: Path) -> Written:
     import matplotlib as mpl
 
     with mpl.rc_context(STYLE):
-        from matplotlib.figure import Figure
-
-        figure = Figure(figsize=(7.6, 4.4), layout="constrained")
-        draw_energy(figure.subplots(), run, energy)
+        figure = energy_figure(*energy_axis(run), energy)
+        figure.axes[0].set_title(f"{run.name}: {closing(energy)}", fontsize=10, loc="left")
         save(figure, path, params.dpi)
     return Written(path)
 
 
-def draw_energy(axes: Any, run: Run, energy: dict[str, NDArray[np.float64]]) -> None:
-    """Draw the stack, the work over it, and say how well the two agree."""
-    work = sum((energy[name] for name in WORK), np.zeros_like(energy["kinetic"]))
+def energy_axis(run: Run) -> tuple[NDArray[np.float64], str]:
+    """Return what energies are drawn over, and its label: strain, or time where there is none."""
+    if has_compression(run):
+        return 100.0 * run.curves["strain"], "strain [%]"
+    return time_axis(run.curves["time_s"])
+
+
+def closing(energy: Energies) -> str:
+    """Return how well a ledger closes, as a sentence."""
+    error = float(np.abs(energy["error"]).max()) / _top(_work(energy))
+    return f"the ledger closes to {error:.0e} of the work"
+
+
+def energy_figure(x: NDArray[np.float64], label: str, energy: Energies) -> Any:
+    """Return a figure of the bands stacked over (s,) values of strain or time, with the work as a line over them."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.6, 4.4), layout="constrained")
+    _draw(figure.subplots(), x, label, energy)
+    return figure
+
+
+def _work(energy: Energies) -> NDArray[np.float64]:
+    return sum((energy[name] for name in WORK), np.zeros_like(energy["kinetic"]))
+
+
+def _top(work: NDArray[np.float64]) -> float:
+    return max(float(np.abs(work).max()), 1e-300)
+
+
+def _draw(axes: Any, x: NDArray[np.float64], label: str, energy: Energies) -> None:
+    work = _work(energy)
     bands = {band: sum((energy[name] for name in band.terms), np.zeros_like(work)) for band in BANDS}
-    top = max(float(np.abs(work).max()), 1e-300)
+    top = _top(work)
     shown = {band: values for band, values in bands.items() if np.abs(values).max() > SMALL * top}
     scale, unit = unit_of(top)
-    x, label = (
-        (100.0 * run.curves["strain"], "strain [%]") if has_compression(run) else (run.curves["time_s"], "time [s]")
-    )
     axes.stackplot(
         x,
         *(scale * np.maximum(values, 0.0) for values in shown.values()),
@@ -92,8 +117,6 @@ def draw_energy(axes: Any, run: Run, energy: dict[str, NDArray[np.float64]]) -> 
     axes.set_ylim(bottom=0.0)
     handles, labels = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], labels[::-1], loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    error = float(np.abs(energy["error"]).max()) / top
-    axes.set_title(f"{run.name}: the ledger closes to {error:.0e} of the work", fontsize=10, loc="left")
 
 
 def unit_of(joules: float) -> tuple[float, str]:

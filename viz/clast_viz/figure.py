@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -43,18 +44,23 @@ def write_figure(run: Run, params: FigureParams, path: Path) -> Written:
     import matplotlib as mpl
 
     with mpl.rc_context(STYLE):
-        figure, upper, lower = new_axes(with_bonds=len(run.bond_ends) > 0)
-        percent, stress = 100.0 * run.curves["strain"], run.curves["stress_Pa"] / 1e6
-        broken = run.curves["bonds_broken"]
-        upper.plot(percent, stress, color=CURVE_COLOUR, linewidth=1.6, label=run.name, zorder=3)
-        _mark_peak(upper, run)
-        draw_references(upper, run.reference)
-        if lower is not None:
-            lower.plot(percent, broken, color=BROKEN_COLOUR, linewidth=1.4)
-            lower.fill_between(percent, broken, color=BROKEN_COLOUR, alpha=0.18, linewidth=0)
-        finish_axes(upper, lower)
-        save(figure, path, params.dpi)
+        save(stress_strain_figure(run, run.name, run.reference), path, params.dpi)
     return Written(path)
+
+
+def stress_strain_figure(run: Run, label: str, references: Sequence[Reference]) -> Any:
+    """Return a figure of the curve, its peak, the reference points and the bonds broken; the run must have a curve."""
+    figure, upper, lower = new_axes(with_bonds=len(run.bond_ends) > 0)
+    percent, stress = 100.0 * run.curves["strain"], run.curves["stress_Pa"] / 1e6
+    broken = run.curves["bonds_broken"]
+    upper.plot(percent, stress, color=CURVE_COLOUR, linewidth=1.6, label=label, zorder=3)
+    _mark_peak(upper, run)
+    draw_references(upper, references)
+    if lower is not None:
+        lower.plot(percent, broken, color=BROKEN_COLOUR, linewidth=1.4)
+        lower.fill_between(percent, broken, color=BROKEN_COLOUR, alpha=0.18, linewidth=0)
+    finish_axes(upper, lower)
+    return figure
 
 
 def new_axes(*, with_bonds: bool) -> tuple[Any, Any, Any | None]:
@@ -68,7 +74,7 @@ def new_axes(*, with_bonds: bool) -> tuple[Any, Any, Any | None]:
     return figure, upper, lower
 
 
-def draw_references(axes: Any, references: list[Reference]) -> None:
+def draw_references(axes: Any, references: Sequence[Reference]) -> None:
     """Draw each measured point with one standard deviation to each side."""
     for reference, marker in zip(references, "oDs^vP" * (1 + len(references) // 6), strict=False):
         axes.errorbar(
@@ -96,7 +102,8 @@ def finish_axes(upper: Any, lower: Any | None) -> None:
     upper.set_axisbelow(True)
     # above the axes: inside, long labels and the scatter of the reference would hide the curve
     entries = len(upper.get_legend_handles_labels()[1])
-    upper.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, ncols=2 if entries > 3 else 1)
+    if entries:
+        upper.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, ncols=2 if entries > 3 else 1)
     bottom = upper
     if lower is not None:
         lower.set_ylabel("bonds broken")
