@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
 from clast.scene.plan import bond_stiffness
+from clast.scene.scatter import draw_factors, scatter_entries
 from clast.scene.scene import Scene
 from clast.scene.start import check_bonds, check_contacts, check_start, check_tracks
 
@@ -36,6 +37,8 @@ LOADED_BYTES, COMPILER_BYTES = 210e6, 110e6
 PARTICLE_BYTES, BOND_BYTES = 600.0, 2800.0
 STAND_INS = 2
 """Particles that stand for a packing in the sample."""
+MOST_DRAWN = 100_000
+"""Bonds among which the stiffest is looked for."""
 MANY_STEPS = 1e9
 LONG_SECONDS = 2 * 86400.0
 
@@ -59,6 +62,8 @@ class Forecast:
         Where the numbers come from.
     concerns : tuple of str
         What will probably keep the run from ending, and what to do.
+    particles_band : float
+        How sure ``particles`` is, as ``Estimate.band``.
     """
 
     particles: int
@@ -69,11 +74,12 @@ class Forecast:
     seconds: float
     notes: tuple[str, ...] = ()
     concerns: tuple[str, ...] = ()
+    particles_band: float = 0.0
 
     def text(self) -> str:
         """Forecast as lines to print."""
         rows = [
-            ("particles", f"{self.particles:,}"),
+            ("particles", estimate_text(Estimate(self.particles, self.particles_band))),
             ("bonds", _bonds_text(self.bonds, self.particles)),
             ("memory", f"about {self.memory / 1e6:,.0f} MB, {COMPILER_BYTES / 1e6:.0f} MB more while compiling"),
             ("time step", f"{self.time_step:.3g} s"),
@@ -97,12 +103,14 @@ def forecast(config: SceneConfig) -> Forecast:
     sample = _sample(config, told)
     (check_contacts if packed else check_start)(sample)
     particles = len(sample.radius) + sum(each.particles - STAND_INS for each in packed)
+    band = sum(each.particles * each.particles_band for each in packed) / particles
     bonds = _bonds(sample, told)
     check_bonds(config, math.inf if bonds is None else bonds.value)
     count = BONDS_PER_PARTICLE * particles if bonds is None else bonds.value
-    step = _time_step(sample, 2.0 * count / particles if packed else None)
+    stiffest = _with_stiffest_bond(sample, bonds) if packed else sample
+    step = _time_step(stiffest, 2.0 * count / particles if packed else None)
     steps = Gauge(config).last_step(step)
-    check_tracks(config, particles, math.inf if bonds is None or bonds.band > 0.0 else bonds.value)
+    check_tracks(config, _sure(Estimate(particles, band)), _sure(bonds))
     seconds = run_seconds(config, particles, count, steps)
     memory = LOADED_BYTES + PARTICLE_BYTES * particles + BOND_BYTES * count
     return Forecast(
@@ -112,8 +120,9 @@ def forecast(config: SceneConfig) -> Forecast:
         time_step=step,
         steps=steps,
         seconds=seconds,
-        notes=_step_notes(config, bool(packed), count > 0.0),
+        notes=_step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
         concerns=(*time_concerns(config, steps, seconds), *_memory_concerns(config, memory)),
+        particles_band=band,
     )
 
 
@@ -186,6 +195,11 @@ def _two_neighbours(told: Prediction, gaps: Gaps | None) -> Packing:
     )
 
 
+def _sure(estimate: Estimate | None) -> float:
+    """Return a count that is known, infinity where it is not."""
+    return math.inf if estimate is None or estimate.band > 0.0 else estimate.value
+
+
 def _bonds(sample: Scene, told: list[Prediction | None]) -> Estimate | None:
     """Return the bonds of what is written, counted, and of what will be packed, estimated."""
     if sample.config.bonds is None:
@@ -201,6 +215,22 @@ def _bonds(sample: Scene, told: list[Prediction | None]) -> Estimate | None:
             estimates.append(each.bonds)
     total = sum(each.value for each in estimates)
     return Estimate(total, sum(each.value * each.band for each in estimates) / max(total, 1.0))
+
+
+def _with_stiffest_bond(sample: Scene, bonds: Estimate | None) -> Scene:
+    """Return the sample as stiff as the stiffest bond that will surely be there; as it is where all are alike."""
+    count = MOST_DRAWN if bonds is None else min(MOST_DRAWN, math.floor(bonds.value * (1.0 - bonds.band)))
+    entries = scatter_entries(sample.config)
+    if not entries or len(sample.ends) == 0 or count == 0:
+        return sample
+    first, factors = np.zeros(count, np.int64), draw_factors(entries, count)
+    sizes = {name: getattr(sample, name)[first] for name in ("ends", "diameter", "length")}
+    stiffness = bond_stiffness(replace(sample, factors=factors, **sizes))
+    largest = np.broadcast_to(np.maximum(stiffness.axial, stiffness.shear), count)
+    if largest.max() == largest.min():
+        return sample
+    bond = int(np.argmax(largest))
+    return replace(sample, factors=tuple(np.full(len(sample.ends), each[bond]) for each in factors))
 
 
 def _time_step(sample: Scene, coordination: float | None) -> float:
@@ -245,11 +275,13 @@ def packed_limit(sample: Scene, coordination: float) -> float:
     return 2.0 / math.sqrt(2.0 * max(float(np.max(moving)), float(np.max(turning))))
 
 
-def _step_notes(config: SceneConfig, packed: bool, bonded: bool) -> tuple[str, ...]:
+def _step_notes(config: SceneConfig, packed: bool, bonded: bool, scattered: bool) -> tuple[str, ...]:
     """Return how sure the time step of a rule is."""
     rule = config.time.step
     if not isinstance(rule, StepRule) or not (packed or (bonded and rule.rule == "spectral")):
         return ()
+    if scattered:
+        return ("time step as if all bonds were as stiff as the stiffest; exactly: clast check --build",)
     if rule.rule == "paper":
         return ("time step from the rule for touching primaries; exactly: clast check --build",)
     if packed:
@@ -260,10 +292,20 @@ def _step_notes(config: SceneConfig, packed: bool, bonded: bool) -> tuple[str, .
 def _bonds_text(bonds: Estimate | None, particles: int) -> str:
     if bonds is None:
         return "known after packing: clast check --build"
-    if bonds.band == 0.0:
-        return f"{bonds.value:,.0f}"
-    digits = -max(int(math.log10(max(bonds.value, 1.0))) - 2, 0)
-    return f"about {round(bonds.value, digits):,.0f} (±{bonds.band:.0%}), {2 * bonds.value / particles:.1f} a particle"
+    each = f", {2 * bonds.value / particles:.1f} a particle" if bonds.band > 0.0 else ""
+    return estimate_text(bonds) + each
+
+
+def estimate_text(estimate: Estimate) -> str:
+    """Return a count as sure as it is known.
+
+    >>> estimate_text(Estimate(2481.7, 0.08)), estimate_text(Estimate(361.0))
+    ('about 2,480 (±8%)', '361')
+    """
+    if estimate.band == 0.0:
+        return f"{estimate.value:,.0f}"
+    digits = -max(int(math.log10(max(estimate.value, 1.0))) - 2, 0)
+    return f"about {round(estimate.value, digits):,.0f} (±{estimate.band:.0%})"
 
 
 def count_text(count: int) -> str:

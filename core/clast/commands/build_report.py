@@ -18,6 +18,7 @@ from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
 from clast.scene.plan import blueprint
+from clast.scene.scatter import scatter_entries
 from clast.scene.scene import Scene
 from clast.scene.start import check_start
 from clast.scene.world import build_world
@@ -82,9 +83,22 @@ def scene_rows(scene: Scene) -> Rows:
         ),
         ("touching neighbours", f"{contact_coordination(scene.position, scene.radius):.2f} a particle"),
         ("overlaps", f"{found.pairs} pairs, largest {found.largest:.3g} m, mean {found.mean:.3g} m"),
+        *scatter_rows(scene),
     ]
     loose = int(np.count_nonzero(degree == 0)) if len(scene.ends) else 0
     return rows + ([("particles without a bond", str(loose))] if loose else [])
+
+
+def scatter_rows(scene: Scene) -> Rows:
+    """Return what the factors of the bonds came to."""
+    return [
+        (
+            f"scatter of {', '.join(entry.parameters)}",
+            f"{entry.distribution}: factors {each.mean():.4g} ± {each.std():.3g}, {each.min():.3g} to {each.max():.3g}",
+        )
+        for entry, each in zip(scatter_entries(scene.config), scene.factors, strict=True)
+        if len(each)
+    ]
 
 
 def mass_text(scene: Scene) -> str:

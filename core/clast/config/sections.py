@@ -7,7 +7,9 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from clast.config.choice import Chosen, PartOf, default_part, registry_of
+from clast.config.problems import refuse
 from clast.config.quantities import Density, Length, Number, Point, Stress, Time, Velocity
+from clast.config.scatter import Scatter, scatter_problems
 from clast.parts.params import Params
 
 BEYOND = 1e100
@@ -56,8 +58,19 @@ class Bonds(Params):
         Chosen, PartOf("bond_kinematics"), Field(description="How a bond's deformation is measured")
     ] = default_part("total")
     model: Annotated[Chosen, PartOf("bond_model"), Field(description="Bond model")]
+    scatter: Annotated[
+        tuple[Scatter, ...] | None,
+        Field(description="Parameters of the model that differ from bond to bond; by default none does"),
+    ] = None
     damping: Annotated[Number, Field(ge=0, description="Damping ratio of bonds; 0 is none")] = 0.0
     fade_steps: Annotated[int, Field(ge=0, description="Steps over which a broken bond's load fades")] = 0
+
+    @model_validator(mode="after")
+    def _scatter_fits_the_model(self) -> Bonds:
+        problems = list(scatter_problems(self.scatter or (), self.model))
+        if problems:
+            raise refuse(problems)
+        return self
 
 
 class PairSettings(Params):

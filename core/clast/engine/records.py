@@ -163,6 +163,24 @@ def columns(record: Any, count: int) -> NDArray[np.float64]:
     return np.concatenate(table, axis=1) if table else np.zeros((count, 0))
 
 
+def from_columns(record: type, table: NDArray[np.float64]) -> Any:
+    """Return a record of arrays from a (count, width) table, as :func:`columns` makes it; equal rows become one number.
+
+    >>> class State(NamedTuple):
+    ...     strain: float
+    ...     slip: tuple[float, float, float]
+    >>> from_columns(State, np.array([[1.0, 2.0, 3.0, 4.0], [5.0, 2.0, 3.0, 4.0]]))
+    State(strain=array([1., 5.]), slip=array([2., 3., 4.]))
+    """
+    row = iter(table.T)
+
+    def take(size: int) -> NDArray[np.float64]:
+        each = next(row) if size == 1 else np.column_stack([next(row) for _ in range(size)])
+        return np.asarray(each[0]) if (each == each[0]).all() else each
+
+    return _fold(record, "", take, lambda kind, _, parts: kind(*parts))
+
+
 def numbers(record: Any) -> list[float]:
     """Return the numbers of one record in a row."""
     return [float(x) for x in columns(record, 1)[0]]

@@ -20,7 +20,7 @@ from clast.maths.vec3 import ZERO
 from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, RandomKey, Strain
 from clast.parts.contact_law import ContactLoad, ContactLosses, Touch
-from clast.scene.plan import material_pairs
+from clast.scene.plan import bond_constants, material_pairs
 from clast.scene.scene import Scene
 
 STRETCH = 1e-6
@@ -42,10 +42,9 @@ def try_laws(scene: Scene, plan: Blueprint) -> None:
 
 def _try_bond(scene: Scene, plan: Blueprint) -> None:
     assert plan.bonds is not None
-    assert scene.config.bonds is not None
-    model, kinematics, chosen = plan.bonds.model, plan.bonds.kinematics, scene.config.bonds.model
+    model, kinematics = plan.bonds.model, plan.bonds.kinematics
     d, L0 = scene.bond_vectors[:1], scene.length[:1]
-    constants = _first(model.Constants, model.constants(chosen.params, scene.bond_geometry))
+    constants = _first(model.Constants, bond_constants(scene))
     reference = _first(kinematics.Reference, kinematics.reference(d, L0))
     start = _first(kinematics.State, kinematics.start(d, L0)) if kinematics.start else _zeros(kinematics.State)
     x = tuple(float(c) for c in d[0] * (1.0 + STRETCH))

@@ -109,9 +109,10 @@ class BondModel:
     Constants : NamedTuple type
         Numbers the law needs: floats, vectors, or NamedTuples of them.
     constants : (params, geometry) -> Constants
-        Computed once; each field is one number for all bonds or an array with one entry a bond.
+        Computed once; each field is one number for all bonds or an array with one entry a bond. Where parameters
+        scatter (``bonds.scatter``) they are (m,) arrays too; a model that cannot take these is asked bond by bond.
     stiffness : (params, geometry) -> Stiffness
-        For the time step, the damping and static solvers.
+        For the time step, the damping and static solvers; takes scattered parameters as ``constants`` does.
     load : (strain, constants, state) -> BondLoad
         Gradient of ``energy``.
     failure : (strain, load, constants, state) -> float

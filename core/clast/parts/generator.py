@@ -112,12 +112,15 @@ class Prediction:
     bonds : Estimate or None
         Bonds the packing brings itself, and pairs of one grain that the scene bonds for their gap; None where only
         packing can tell.
+    particles_band : float
+        How sure ``particles`` is, as ``Estimate.band``.
     """
 
     particles: int
     radius: float
     material: str
     bonds: Estimate | None = None
+    particles_band: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from clast.errors import DamagedError, RunError, one_line
 from clast.results.checkpoint import how_to_go_on
 from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
 from clast.results.whole_file import whole_file
+from clast.scene.scatter import scatter_entries
 
 if TYPE_CHECKING:
     from clast.simulation import Simulation
@@ -56,6 +57,9 @@ def _describe(file: Any, simulation: Simulation) -> None:
     bonds = file.create_group("bonds")
     bonds["ends"] = scene.ends.astype(np.uint32)
     bonds["diameter"], bonds["length"] = scene.diameter, scene.length
+    if scene.factors:
+        bonds["factors"] = np.column_stack(scene.factors)
+        bonds["factors"].attrs["parameters"] = [", ".join(each.parameters) for each in scatter_entries(scene.config)]
     extent = np.ptp(scene.position, axis=0).max() + 2.0 * scene.radius.max()
     for k, (name, wall) in enumerate(scene.config.walls.items()):
         group = file.create_group(f"walls/{name}")

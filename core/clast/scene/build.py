@@ -14,6 +14,7 @@ from clast.errors import ConfigError, KeyPath
 from clast.parts.generator import BondList, Packing
 from clast.plugins.nearest import suggestion
 from clast.scene.bonding import bond_neighbours, doubled
+from clast.scene.scatter import draw_factors, scatter_entries
 from clast.scene.scene import Origin, Scene
 
 EXTREME = 1e-100
@@ -113,6 +114,7 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
         diameter=bonds.diameter,
         length=_lengths(bonds, position),
         relieved=np.concatenate([np.full(len(p.radius), p.relieved) for p in packings]),
+        factors=draw_factors(scatter_entries(config), len(bonds.ends)),
         origins=origins,
         report={f"{k + 1}. {chosen.name}": packing.report for k, (chosen, packing) in enumerate(made)},
     )

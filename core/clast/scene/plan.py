@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from clast.engine.records import fields, leaves
 from clast.engine.state import Floats
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
+from clast.scene.scatter import STIFFNESS, Form, form_of_constants, of_each_bond, scatter_entries
 from clast.scene.scene import Scene
 
 
@@ -43,7 +44,7 @@ def _bond_plan(scene: Scene) -> BondPlan | None:
     config = scene.config.bonds
     if config is None or len(scene.ends) == 0:
         return None
-    record = config.model.part.constants(config.model.params, scene.bond_geometry)
+    record = bond_constants(scene)
     uniform = [
         np.ndim(v) < (1 if f.size == 1 else 2)
         for f, v in zip(fields(type(record)), leaves(record), strict=True)
@@ -133,9 +134,22 @@ def applied_loads(scene: Scene) -> Floats:
 def bond_stiffness(scene: Scene) -> Stiffness:
     """Return the elastic stiffness of every bond of a scene that has bonds."""
     assert scene.config.bonds is not None
-    model = scene.config.bonds.model
-    found: Stiffness = model.part.stiffness(model.params, scene.bond_geometry)
+    found: Stiffness = _of_each_bond(scene, scene.config.bonds.model.part.stiffness, STIFFNESS)
     return found
+
+
+def bond_constants(scene: Scene) -> Any:
+    """Return the constants of the bond model for every bond of a scene that has bonds."""
+    assert scene.config.bonds is not None
+    part = scene.config.bonds.model.part
+    return _of_each_bond(scene, part.constants, form_of_constants(part.Constants))
+
+
+def _of_each_bond(scene: Scene, function: Callable[..., Any], form: Form) -> Any:
+    config = scene.config
+    assert config.bonds is not None
+    entries = scatter_entries(config)
+    return of_each_bond(function, form, config.bonds.model.params, entries, scene.factors, scene.bond_geometry)
 
 
 def damping_coefficients(scene: Scene) -> NDArray[np.float64]:

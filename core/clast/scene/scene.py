@@ -52,6 +52,8 @@ class Scene:
         Diameter and initial length of each bond in m.
     relieved : (n,) bool
         Particles whose overlaps at the start count as undeformed.
+    factors : tuple of (m,) float64
+        For each entry of ``bonds.scatter``, what the parameters it names are multiplied by, bond by bond.
     origins : tuple of Origin
         Where the particles of each generator come from, in order.
     report : mapping
@@ -73,6 +75,7 @@ class Scene:
     diameter: Floats
     length: Floats
     relieved: NDArray[np.bool_]
+    factors: tuple[Floats, ...] = ()
     origins: tuple[Origin, ...] = ()
     report: Mapping[str, Mapping[str, float | int | str]] = field(default_factory=dict)
 

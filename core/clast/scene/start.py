@@ -9,6 +9,7 @@ from clast.config.scene import SceneConfig
 from clast.config.sections import Domain
 from clast.scene.bonding import close_pairs
 from clast.scene.plan import material_pairs, wall_shapes
+from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
 
 COARSEST = 1e-6
@@ -23,10 +24,12 @@ def check_start(scene: Scene) -> None:
     ConfigError
         If two materials that can touch have no settings, walls have no contact law, a bond model has no bonds, a track
         names what is not there, particles lie outside the domain, are so far from the origin or so near to each other
-        that round-off is a visible share of what moves them, or bodies overlap too much.
+        that round-off is a visible share of what moves them, a bond's parameters scatter beyond their bounds, or bodies
+        overlap too much.
     """
     check_contacts(scene)
     check_bonds(scene.config, len(scene.ends))
+    refuse_beyond_bounds(scene.config, scene.factors)
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
     _refuse_outsiders(scene)
     _refuse_coarse_positions(scene)
@@ -66,7 +69,7 @@ def check_bonds(config: SceneConfig, bonds: float) -> None:
         raise config.problem(("bonds",), text)
 
 
-def check_tracks(config: SceneConfig, particles: int, bonds: float) -> None:
+def check_tracks(config: SceneConfig, particles: float, bonds: float) -> None:
     """Check that every particle and bond to be tracked is there.
 
     Raises

@@ -27,7 +27,7 @@ from clast.engine.tables import (
     no_bonds,
     particle_tables,
 )
-from clast.scene.plan import applied_loads, damping_coefficients, material_pairs, wall_shapes
+from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs, wall_shapes
 from clast.scene.scene import Scene
 
 
@@ -107,7 +107,7 @@ def _bonds(scene: Scene, plan: Blueprint, chunks: Indices) -> tuple[Bonds, Float
     if plan.bonds is None or config is None:
         return no_bonds(chunks), np.zeros(0)
     d, kinematics = scene.bond_vectors, plan.bonds.kinematics
-    constants = config.model.part.constants(config.model.params, scene.bond_geometry)
+    constants = bond_constants(scene)
     start = kinematics.start(d, scene.length) if kinematics.start is not None else None
     damping = damping_coefficients(scene) if plan.bonds.damping else np.zeros((len(d), 4))
     reference = kinematics.reference(d, scene.length)
