@@ -14,6 +14,7 @@ from clast.engine.state import World
 from clast.engine.tables import empty_pairs
 from clast.engine.time_step import Limits, choose_step, limits, ruling
 from clast.parts.generator import BondList
+from clast.results.fragments import fragments
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
@@ -83,10 +84,23 @@ def scene_rows(scene: Scene) -> Rows:
         ),
         ("touching neighbours", f"{contact_coordination(scene.position, scene.radius):.2f} a particle"),
         ("overlaps", f"{found.pairs} pairs, largest {found.largest:.3g} m, mean {found.mean:.3g} m"),
+        *piece_rows(scene),
         *scatter_rows(scene),
     ]
     loose = int(np.count_nonzero(degree == 0)) if len(scene.ends) else 0
     return rows + ([("particles without a bond", str(loose))] if loose else [])
+
+
+def piece_rows(scene: Scene) -> Rows:
+    """Return how many pieces the bonds make of the grains, where they make more than there are grains."""
+    if not len(scene.ends):
+        return []
+    piece = fragments(len(scene.radius), scene.ends, np.ones(len(scene.ends), bool))
+    sizes = np.bincount(piece[scene.grain >= 0])
+    grains, pieces = len(np.unique(scene.grain[scene.grain >= 0])), int(np.count_nonzero(sizes))
+    if pieces == grains:
+        return [("pieces", f"{pieces}, one a grain")]
+    return [("pieces", f"{pieces} in place of {grains}, the smallest of {sizes[sizes > 0].min()} particles")]
 
 
 def scatter_rows(scene: Scene) -> Rows:

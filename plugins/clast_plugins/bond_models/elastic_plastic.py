@@ -6,6 +6,8 @@ from dataclasses import replace
 from math import sqrt
 from typing import NamedTuple
 
+import numpy as np
+
 from clast import hookimpl
 from clast.maths.vec3 import Vec, dot, scale, sub
 from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Stiffness, Strain
@@ -85,7 +87,7 @@ def constants(params: ElasticPlastic, bond: BondGeometry) -> Constants:
         yield_strain=params.yield_stress / E,
         yield_shear_strain=params.yield_stress / G,
         per_tensile_limit=1.0 / params.breakage_strain,
-        per_compressive_limit=0.0 if K == 0 else 1.0 / (K * params.breakage_strain),
+        per_compressive_limit=1.0 / (K * params.breakage_strain) if np.all(K) else 0.0,
     )
 
 

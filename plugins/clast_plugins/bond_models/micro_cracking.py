@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import sqrt
 from typing import Annotated, Literal, NamedTuple
 
+import numpy as np
 from pydantic import Field
 
 from clast import hookimpl
@@ -107,7 +108,7 @@ def constants(params: MicroCracking, bond: BondGeometry) -> Constants:
         per_normal_yield=1.0 / params.yield_stress,
         per_shear_yield=1.0 / params.yield_stress if params.shear_drops else 0.0,
         per_tensile_limit=1.0 / params.breakage_strain,
-        per_compressive_limit=0.0 if K == 0 else 1.0 / (K * params.breakage_strain),
+        per_compressive_limit=1.0 / (K * params.breakage_strain) if np.all(K) else 0.0,
         weakening_factor=params.weakening_factor,
         fixed_drop=-1.0 if params.fixed_drop is None else params.fixed_drop,
         from_trial=1.0 if params.drop_from == "trial" else 0.0,

@@ -22,6 +22,7 @@ from clast_plugins.generators.packing.agglomerate import (
     number_of_primaries,
     predict_agglomerate,
 )
+from clast_plugins.generators.packing.macro_pores import refuse_senseless
 
 
 class FlattenedAgglomerate(AgglomerateParams):
@@ -59,6 +60,7 @@ class FlattenedAgglomerate(AgglomerateParams):
                 f"{millimetres(self.height)} apart"
             )
         number_of_primaries(self, self.volume_diameter)
+        refuse_senseless(self.macro_pores, self.height, self.primary_diameter)
         return self
 
 
@@ -75,11 +77,12 @@ def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
     ConfigError
         No random packing is so dense, and ``accept_overlap`` is not set.
     PackingError
-        Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
+        Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
+        cut the grain into pieces.
     """
     count = number_of_primaries(params, params.volume_diameter)
     packing, reached = make_agglomerate(params, _body(params), count)
-    return replace(packing, report={"primaries": count, **_shape(params, packing), **reached})
+    return replace(packing, report={"primaries": len(packing.radius), **_shape(params, packing), **reached})
 
 
 def _body(params: FlattenedAgglomerate) -> Body:

@@ -22,6 +22,7 @@ from clast_plugins.generators.packing.agglomerate import (
     number_of_primaries,
     predict_agglomerate,
 )
+from clast_plugins.generators.packing.macro_pores import refuse_senseless
 
 
 class SphericalAgglomerate(AgglomerateParams):
@@ -54,6 +55,7 @@ class SphericalAgglomerate(AgglomerateParams):
                 f"{millimetres(self.diameter)}"
             )
         number_of_primaries(self, self.diameter)
+        refuse_senseless(self.macro_pores, self.diameter, self.primary_diameter)
         return self
 
 
@@ -70,13 +72,14 @@ def generate(params: SphericalAgglomerate, folder: Path) -> Packing:
     ConfigError
         No random packing is so dense, and ``accept_overlap`` is not set.
     PackingError
-        Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
+        Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
+        cut the grain into pieces.
     """
     count = number_of_primaries(params, params.diameter)
     packing, reached = make_agglomerate(params, _body(params), count)
     free = porosity(packing.radius, sphere_volume(params.diameter))
     asked = {} if params.porosity is None else {"porosity_asked": params.porosity}
-    return replace(packing, report={"primaries": count, **asked, "porosity_reached": free, **reached})
+    return replace(packing, report={"primaries": len(packing.radius), **asked, "porosity_reached": free, **reached})
 
 
 def _body(params: SphericalAgglomerate) -> Body:

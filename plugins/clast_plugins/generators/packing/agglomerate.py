@@ -20,8 +20,10 @@ from clast.scene.packing_report import (
     overlaps,
     sphere_volume,
 )
-from clast_plugins.generators.packing.container import Floats, around
+from clast_plugins.generators.packing.container import Container, Floats, around
+from clast_plugins.generators.packing.macro_pores import MacroPores, carve, make_voids, report_of
 from clast_plugins.generators.packing.near_pairs import near_pairs
+from clast_plugins.generators.packing.pore_estimates import Bulk, pairs_left, primaries_inside
 from clast_plugins.generators.packing.relax import Relaxed, relax
 
 MOST_PRIMARIES = 10_000_000
@@ -59,6 +61,10 @@ class AgglomerateParams(Params):
         Field(description="Take the best packing found even where larger overlaps stay, and report them"),
     ] = False
     centre: Annotated[Point, Field(description="Centre of the agglomerate")] = (0.0, 0.0, 0.0)
+    macro_pores: Annotated[
+        MacroPores | None,
+        Field(description="Voids carved out of the packing; porosity and primaries are those before"),
+    ] = None
 
 
 class Body(NamedTuple):
@@ -67,6 +73,11 @@ class Body(NamedTuple):
     diameter: float
     height: float
     words: str
+
+    @property
+    def volume(self) -> float:
+        """Volume in m³."""
+        return cut_sphere_volume(self.diameter, self.height)
 
 
 def number_of_primaries(params: AgglomerateParams, diameter: float) -> int:
@@ -99,17 +110,24 @@ def predict_agglomerate(params: AgglomerateParams, body: Body, count: int, gaps:
     Raises
     ------
     ConfigError
-        No random packing is so dense.
+        No random packing is so dense, or its pores make no sense.
+    PackingError
+        There is no room for its pores.
     """
     _refuse_impossible(params, body, count)
     d = params.primary_diameter
-    if gaps is None:
-        bonds: Estimate | None = Estimate(0.0)
-    else:
-        size = (body.diameter / d, body.height / d)
-        wanted = Gaps(gaps.least / d, gaps.most / d)
-        bonds = near_pairs(count, cut_sphere_volume(*size), cut_sphere_surface(*size), wanted)
-    return Prediction(count, 0.5 * d, params.material, bonds)
+    size = (body.diameter / d, body.height / d)
+    packed = Bulk(count, cut_sphere_volume(*size), cut_sphere_surface(*size))
+    wanted = None if gaps is None else Gaps(gaps.least / d, gaps.most / d)
+    bonds = Estimate(0.0) if wanted is None else near_pairs(*packed, wanted)
+    if params.macro_pores is None:
+        return Prediction(count, 0.5 * d, params.material, bonds)
+    pores = make_voids(params.macro_pores, _room(body), body.volume).diameter / d
+    inside = primaries_inside(packed, pores)
+    left = count - round(inside.value)
+    if wanted is not None and bonds is not None:
+        bonds = pairs_left(packed, bonds, pores, wanted)
+    return Prediction(left, 0.5 * d, params.material, bonds, inside.band * inside.value / left)
 
 
 def near_in_number(position: Floats) -> Floats:
@@ -132,14 +150,17 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
     ConfigError
         No random packing is so dense, and ``accept_overlap`` is not set.
     PackingError
-        Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
+        Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
+        cut the grain into pieces.
     """
     _refuse_impossible(params, body, count)
     d, allowed = params.primary_diameter, _allowed_overlap(params)
     relaxed = relax(count, around(0.5 * body.diameter / d, 0.5 * body.height / d), params.seed, allowed / d)
     if relaxed.overlap > allowed / d and not params.accept_overlap:
         raise PackingError(_too_dense(params, body, count, relaxed, allowed), _density_key(params))
-    position = np.asarray(params.centre) + d * near_in_number(relaxed.position)
+    position, pores = _with_pores(params, body, relaxed.position)
+    position = np.asarray(params.centre) + d * near_in_number(position)
+    count = len(position)
     radius = np.full(count, 0.5 * d)
     packing = Packing(
         position=position,
@@ -151,7 +172,20 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
         grain=np.zeros(count, np.int64),
         relieved=relaxed.overlap > allowed / d,
     )
-    return packing, _reached(params, relaxed, position, radius, allowed)
+    return packing, pores | _reached(params, relaxed, position, radius, allowed)
+
+
+def _with_pores(params: AgglomerateParams, body: Body, position: Floats) -> tuple[Floats, dict[str, float | int | str]]:
+    """Return the primaries (n, 3), in their diameters, that pores leave, and what is told of the pores."""
+    if params.macro_pores is None:
+        return position, {}
+    voids = make_voids(params.macro_pores, _room(body), body.volume)
+    carved = carve(voids, params.primary_diameter * position, params.primary_diameter)
+    return position[carved.kept], {**report_of(voids, carved, body.volume)}
+
+
+def _room(body: Body) -> Container:
+    return Container(0.5 * body.diameter, 0.5 * body.height)
 
 
 def _allowed_overlap(params: AgglomerateParams) -> float:
@@ -165,7 +199,7 @@ def _density_key(params: AgglomerateParams) -> KeyPath:
 def _refuse_impossible(params: AgglomerateParams, body: Body, count: int) -> None:
     """Refuse more primaries than fill their share of a body even where each pair overlaps as far as allowed."""
     d = max(params.primary_diameter - _allowed_overlap(params), 0.0)
-    filled = count * sphere_volume(d) / cut_sphere_volume(body.diameter, body.height)
+    filled = count * sphere_volume(d) / body.volume
     if count == 1 or params.accept_overlap or filled <= DENSEST:
         return
     raise ConfigError(

@@ -65,9 +65,13 @@ def near_pairs(count: int, volume: float, surface: float, gaps: Gaps) -> Estimat
     return Estimate(pairs, BAND + 2.0 / math.sqrt(max(pairs, 1.0)))
 
 
+def share_of_bulk(gap: float, volume: float, surface: float) -> float:
+    """Return how many others a sphere of a body has within a gap on average, as a share of those in its middle."""
+    return 1.0 - (SURFACE + SURFACE_PER_GAP * gap) * surface / (6.0 * volume)
+
+
 def _up_to(count: int, volume: float, surface: float, gap: float) -> float:
     fraction = count * math.pi / 6.0 / volume
     factor = float(np.interp(fraction, FRACTIONS, [np.interp(gap, GAPS, row) for row in FACTOR]))
-    inside = 1.0 - (SURFACE + SURFACE_PER_GAP * gap) * surface / (6.0 * volume)
-    neighbours = 8.0 * fraction * (1.0 + gap) ** 3 * factor * inside
+    neighbours = 8.0 * fraction * (1.0 + gap) ** 3 * factor * share_of_bulk(gap, volume, surface)
     return 0.5 * count * min(neighbours, count - 1.0)
