@@ -8,19 +8,17 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
-from clast.config.sections import StepRule
-from clast.engine.time_step import asked_step, bond_limit, contact_limit, local_limit, pair_limit, rayleigh_limit
+from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
-from clast.scene.plan import bond_stiffness
-from clast.scene.scatter import draw_factors, scatter_entries
+from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
 from clast.scene.start import check_bonds, check_contacts, check_start, check_tracks
 
@@ -37,8 +35,6 @@ LOADED_BYTES, COMPILER_BYTES = 210e6, 110e6
 PARTICLE_BYTES, BOND_BYTES = 600.0, 2800.0
 STAND_INS = 2
 """Particles that stand for a packing in the sample."""
-MOST_DRAWN = 100_000
-"""Bonds among which the stiffest is looked for."""
 MANY_STEPS = 1e9
 LONG_SECONDS = 2 * 86400.0
 
@@ -107,8 +103,12 @@ def forecast(config: SceneConfig) -> Forecast:
     bonds = _bonds(sample, told)
     check_bonds(config, math.inf if bonds is None else bonds.value)
     count = BONDS_PER_PARTICLE * particles if bonds is None else bonds.value
-    stiffest = _with_stiffest_bond(sample, bonds) if packed else sample
-    step = _time_step(stiffest, 2.0 * count / particles if packed else None)
+    stiffest = sample
+    if packed:
+        factors = sure_factors(config, bonds)
+        refuse_beyond_bounds(config, factors)
+        stiffest = with_stiffest_bond(sample, factors)
+    step = time_step(stiffest, 2.0 * count / particles if packed else None)
     steps = Gauge(config).last_step(step)
     check_tracks(config, _sure(Estimate(particles, band)), _sure(bonds))
     seconds = run_seconds(config, particles, count, steps)
@@ -120,7 +120,7 @@ def forecast(config: SceneConfig) -> Forecast:
         time_step=step,
         steps=steps,
         seconds=seconds,
-        notes=_step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
+        notes=step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
         concerns=(*time_concerns(config, steps, seconds), *_memory_concerns(config, memory)),
         particles_band=band,
     )
@@ -215,78 +215,6 @@ def _bonds(sample: Scene, told: list[Prediction | None]) -> Estimate | None:
             estimates.append(each.bonds)
     total = sum(each.value for each in estimates)
     return Estimate(total, sum(each.value * each.band for each in estimates) / max(total, 1.0))
-
-
-def _with_stiffest_bond(sample: Scene, bonds: Estimate | None) -> Scene:
-    """Return the sample as stiff as the stiffest bond that will surely be there; as it is where all are alike."""
-    count = MOST_DRAWN if bonds is None else min(MOST_DRAWN, math.floor(bonds.value * (1.0 - bonds.band)))
-    entries = scatter_entries(sample.config)
-    if not entries or len(sample.ends) == 0 or count == 0:
-        return sample
-    first, factors = np.zeros(count, np.int64), draw_factors(entries, count)
-    sizes = {name: getattr(sample, name)[first] for name in ("ends", "diameter", "length")}
-    stiffness = bond_stiffness(replace(sample, factors=factors, **sizes))
-    largest = np.broadcast_to(np.maximum(stiffness.axial, stiffness.shear), count)
-    if largest.max() == largest.min():
-        return sample
-    bond = int(np.argmax(largest))
-    return replace(sample, factors=tuple(np.full(len(sample.ends), each[bond]) for each in factors))
-
-
-def _time_step(sample: Scene, coordination: float | None) -> float:
-    """Return the step a scene asks for; ``coordination`` is that of its bonds where they are not all in the sample.
-
-    Raises
-    ------
-    ConfigError
-        Two neighbours alone are unstable with it, and so is every scene they are in.
-    """
-    config, contact = sample.config, contact_limit(sample)
-    spectral = local_limit(sample) if coordination is None else packed_limit(sample, coordination)
-    if config.time.selective_mass_scaling is not None:
-        spectral = max(spectral, config.time.selective_mass_scaling)
-    step = asked_step(config, min(rayleigh_limit(sample), bond_limit(sample)), spectral, contact)
-    damping = config.integrator.part.damping_factor(config.bonds.damping if config.bonds is not None else 0.0)
-    pair = pair_limit(sample) * damping if config.time.selective_mass_scaling is None else math.inf
-    most = min(pair, 10.0 * contact)
-    if step > most and not config.time.allow_unstable:
-        raise config.problem(
-            ("time", "step"),
-            f"{step:.4g} s is above {most:.4g} s, with which two neighbours alone are unstable; take a smaller step, "
-            "raise time.mass_scaling, or set time.allow_unstable",
-        )
-    return step
-
-
-def packed_limit(sample: Scene, coordination: float) -> float:
-    """Return about 2/ω_max of a random packing in s, from two of its primaries and its bonds per primary.
-
-    Bonds in all directions hold a primary against moving with Z/3 (k_n + 2 k_t)/m, against turning with
-    Z (2/3 k_t L²/4 + (k_tor + 2 k_b)/3)/I; in the fastest mode its neighbours do the opposite, which doubles it. Of 14
-    packings (porosity 0.45 to 0.75, 4 to 30 bonds a primary) 13 gave 0.93 to 1.12 of the exact limit of their bonds,
-    one in which only gaps were bonded 1.31.
-    """
-    if len(sample.ends) == 0:
-        return math.inf
-    k, inertia = bond_stiffness(sample), 0.4 * sample.mass * sample.radius**2
-    moving = coordination / 3.0 * (k.axial + 2.0 * k.shear) / sample.mass.min()
-    lever = 0.5 * sample.length
-    turning = coordination / 3.0 * (2.0 * k.shear * lever**2 + k.torsion + 2.0 * k.bending) / inertia.min()
-    return 2.0 / math.sqrt(2.0 * max(float(np.max(moving)), float(np.max(turning))))
-
-
-def _step_notes(config: SceneConfig, packed: bool, bonded: bool, scattered: bool) -> tuple[str, ...]:
-    """Return how sure the time step of a rule is."""
-    rule = config.time.step
-    if not isinstance(rule, StepRule) or not (packed or (bonded and rule.rule == "spectral")):
-        return ()
-    if scattered:
-        return ("time step as if all bonds were as stiff as the stiffest; exactly: clast check --build",)
-    if rule.rule == "paper":
-        return ("time step from the rule for touching primaries; exactly: clast check --build",)
-    if packed:
-        return ("time step within about 15 %, from the bonds a primary has; exactly: clast check --build",)
-    return ("time step from bounds of single particles, at most a third too small; exactly: clast check --build",)
 
 
 def _bonds_text(bonds: Estimate | None, particles: int) -> str:

@@ -72,7 +72,15 @@ def _entry_text(entry: Registered) -> str:
     for row in rows:
         cells = [f"{cell:{width}}" for cell, width in zip(row, widths, strict=False)]
         lines.append("    " + "  ".join([*cells, row[4]]).rstrip())
+    if entry.kind == "bond_model":
+        lines.append(f"  may differ from bond to bond ('bonds.scatter'): {', '.join(_multiplied(entry.part.Params))}")
     return "\n".join(lines)
+
+
+def _multiplied(model: type[Params]) -> list[str]:
+    """Return the names of the parameters that are quantities: what factors can multiply."""
+    fields = model_schema(model).get("properties", {})
+    return [name for name, field in fields.items() if any("x-unit" in branch for branch in _branches(field))]
 
 
 def _parameters(

@@ -6,6 +6,7 @@ A record may hold others: their numbers lie where they stand, and their fields a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
 from types import UnionType
 from typing import Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
@@ -22,6 +23,7 @@ class Field(NamedTuple):
     size: int
 
 
+@cache
 def members(record: type) -> dict[str, int | type]:
     """Return what the fields of a NamedTuple type are by name: so many numbers, or another record.
 

@@ -73,3 +73,14 @@ def test_parts_are_told_with_their_source(registry):
     assert "fake-distribution 1.2" in plugins_text(registry)
     assert "brittle | ductile" in part_text(registry, "elastic")
     assert "bond model" in part_text(registry, "bond_model.elastic")
+
+
+def test_a_bond_model_says_what_of_it_can_scatter(registry):
+    assert "may differ from bond to bond ('bonds.scatter'): young_modulus" in part_text(registry, "elastic")
+    assert "bonds.scatter" not in part_text(registry, "explicit")
+
+
+def test_the_schema_knows_scatter(registry):
+    definitions = scene_schema(registry)["$defs"]
+    assert definitions["Bonds"]["properties"]["scatter"]["anyOf"][0]["items"] == {"$ref": "#/$defs/Scatter"}
+    assert set(definitions["Scatter"]["properties"]) == {"parameters", "distribution", "modulus", "deviation", "seed"}

@@ -29,6 +29,7 @@ from clast.scene.scatter import STIFFNESS, bond_of, draw_factors, form_of_consta
 from clast.scene.start import check_start
 from clast.simulation import Simulation
 
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 COUNT = 40
 ALONG = np.linspace(0.2e-3, 0.3e-3, COUNT)
 SIZES = np.linspace(0.1e-3, 0.12e-3, COUNT)
@@ -119,6 +120,17 @@ def test_a_law_that_cannot_take_arrays_is_asked_bond_by_bond(law: Any) -> None:
     np.testing.assert_array_equal(table[:, 0], 2.0 / ALONG)
     np.testing.assert_array_equal(table[:, 1], limit)
     np.testing.assert_array_equal(table[:, 4], (limit > 3.0) if law is branching else 0.0)
+
+
+def test_the_law_of_the_tutorial_scatters_without_knowing_it(tmp_path: Path) -> None:
+    law = {"type": "softening", "young_modulus": "100 MPa", "damage_strain": 0.001, "breakage_strain": 0.004}
+    entry = {"parameters": ["damage_strain", "breakage_strain"], "distribution": "lognormal", "deviation": 0.1}
+    changes = {"plugins": [str(EXAMPLES / "my_law.py")], "bonds.model": law, "bonds.scatter": [entry]}
+    built = build_scene(load(write(tmp_path, CRUSH)).changed(changes))
+    c = bond_constants(built)
+    assert len(built.factors[0]) > 100
+    np.testing.assert_allclose(c.eps_0, 0.001 * built.factors[0], rtol=1e-14)
+    np.testing.assert_allclose(c.eps_f / c.eps_0, 4.0, rtol=1e-14)
 
 
 def test_an_error_of_the_law_itself_is_not_swallowed() -> None:
@@ -267,8 +279,9 @@ def test_a_parameter_that_is_0_cannot_scatter(tmp_path: Path) -> None:
 
 def test_a_bond_beyond_the_bounds_of_its_model_is_refused_before_anything_runs(tmp_path: Path) -> None:
     entry = {"parameters": ["poisson_ratio"], "distribution": "lognormal", "deviation": 0.8}
-    scene = build_scene(scattered(tmp_path, entry))
-    with pytest.raises(
-        ConfigError, match=r"bonds\.scatter\.0: the factor .* of bond \d+ makes poisson_ratio .* must be less than 0\.5"
-    ):
-        check_start(scene)
+    config = scattered(tmp_path, entry)
+    refused = r"bonds\.scatter\.0: the factor .* of bond \d+ makes poisson_ratio .* must be less than 0\.5"
+    with pytest.raises(ConfigError, match=refused):
+        check_start(build_scene(config))
+    with pytest.raises(ConfigError, match=refused):
+        forecast(config)
