@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from clast.config.quantities import read_quantity
+from clast.maths.distributions import weibull_deviation
 from clast.studies.axis_config import AxisConfig
 
 
@@ -158,10 +159,7 @@ def weibull_modulus(share: float) -> float:
     """
     from scipy.optimize import brentq
 
-    def excess(m: float) -> float:
-        return gamma(1.0 + 2.0 / m) / gamma(1.0 + 1.0 / m) ** 2 - 1.0 - share**2
-
-    return float(brentq(excess, 0.1, 1e3))
+    return float(brentq(lambda modulus: weibull_deviation(modulus) - share, 0.1, 1e3))
 
 
 def _number_of(value: Any) -> float | None:
