@@ -15,7 +15,7 @@ from clast.maths.rotation import IDENTITY
 from clast.maths.vec3 import ZERO
 from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, RandomKey, Strain
-from clast.parts.contact_law import ContactLoad, ContactLosses, Touch
+from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Touch
 from clast.scene.plan import material_pairs
 from clast.scene.scene import Scene
 
@@ -74,7 +74,7 @@ def _try_contact(scene: Scene, plan: Blueprint) -> None:
         load, after = _call(law.load, tuple, touch, constants, history, 1e-6, plan.contacts.choices)
         _expect(law.load, load, ContactLoad)
         if plan.ledger and law.losses is not None:
-            rest = (touch, constants, history, load, after, 1e-6, plan.contacts.choices, ZERO)
+            rest = (touch, constants, history, load, after, 1e-6, plan.contacts.choices, NO_DRAG)
             _call(law.losses, ContactLosses, *rest)
         _call(law.energy, float, touch, constants, history, plan.contacts.choices)
 

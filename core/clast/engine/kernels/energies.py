@@ -8,19 +8,18 @@ import numpy as np
 
 from clast.engine.compiler import compiled, inlined, routine
 from clast.engine.state import Floats, Indices, Numbers, Pairs, Particles, WallPairs, Walls, World
-from clast.maths.vec3 import ZERO, Vec, dot, scale, sub
-from clast.parts.contact_law import ContactLosses, Touch
+from clast.maths.vec3 import dot, scale, sub
+from clast.parts.contact_law import NO_DRAG, ContactLosses, Drag, Touch
 
 from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
-from .contact_lane import HISTORY_BASE, gather, read_touch
+from .contact_lane import HISTORY_BASE, gather, kept_drag, read_drag, read_touch
 from .contact_sweep import joined, meet
 from .lanes import row, vector
 from .layout import (
     BOND_SCRATCH,
     CONTACT_F,
     CONTACT_FREE,
-    DRAG,
     ENERGY,
     FIRST,
     INTACT,
@@ -187,9 +186,9 @@ def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[flo
 
 
 @inlined
-def energy_of(touch: Touch, constants, history, time: float, drag: Vec):  # type: ignore[no-untyped-def]
+def energy_of(touch: Touch, constants, history, time: float, drag: Drag):  # type: ignore[no-untyped-def]
     """Return the elastic energy of a contact some time after its forces were evaluated, and what it has lost since."""
-    since = ContactLosses(0.0, 0.0, 0.0, 0.0, ZERO)
+    since = ContactLosses(0.0, 0.0, 0.0, 0.0, NO_DRAG)
     if time > 0.0:
         load, kept = contact_load(touch, constants, history, time, CHOICES)
         if CONTACT_LOSSES:
@@ -249,7 +248,7 @@ def energy_of_pair(scratch: Floats, lane: int, shared: Any, numbers: Numbers, ti
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, touch.normal) + dot(touch.spin_j, touch.normal)) * time
         history = carry_history(history, vector(scratch, NORMAL, lane), touch.normal, spin)
-    drag = vector(scratch, DRAG, lane) if CONTACT_LOSSES else ZERO
+    drag = read_drag(scratch, lane) if CONTACT_LOSSES else NO_DRAG
     scratch[CONTACT_ENERGY * LANES + lane], since = energy_of(touch, constants, history, time, drag)
     scratch[LOST * LANES + lane] = since.viscous / share
     scratch[(LOST + 1) * LANES + lane] = since.sliding
@@ -276,7 +275,7 @@ def wall_energy(
         spin = 0.5 * dot(touch.spin_i, near.normal) * time
         history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), near.normal, spin)
     constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
-    drag = row(pairs.history, p, 3 + HISTORY) if CONTACT_LOSSES and pairs.touching[p] != 0 else ZERO
+    drag = kept_drag(pairs.history, p) if CONTACT_LOSSES and pairs.touching[p] != 0 else NO_DRAG
     energy, since = energy_of(touch, constants, history, time, drag)
     lost[VISCOUS] += since.viscous / share
     lost[SLIDING] += since.sliding
