@@ -23,7 +23,7 @@ from clast.engine.kernels.layout import (
 )
 from clast.engine.ledger import Ledger, read_ledger
 from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
-from clast.engine.rehearsal import readable_errors, try_laws
+from clast.engine.rehearsal import try_laws
 from clast.engine.state import Floats, World
 from clast.engine.step_keeper import StepKeeper
 from clast.engine.tables import slot_view
@@ -214,8 +214,7 @@ class Simulation:
         return self.keeper.limit(self.keeper.present(self.world))
 
     def _advance(self, step: int) -> int:
-        with readable_errors(self.plan):
-            return self.crew.advance(self.kernel.advance, self.world, step, self.step)
+        return self.crew.advance(self.kernel.advance, self.world, step, self.step)
 
     def renew_lists(self) -> None:
         """Search for neighbours at the present positions."""
@@ -238,15 +237,13 @@ class Simulation:
     def bond_loads(self) -> Floats:
         """Return what every bond carries now, (m, 8); columns as in ``kernels.observe``."""
         output = np.zeros((len(self.scene.ends), BOND_COLUMNS))
-        with readable_errors(self.plan):
-            self.kernel.observe(self.world, output)
+        self.kernel.observe(self.world, output)
         return output
 
     def ledger(self) -> Ledger:
         """Return where all energy is now; losses are only known with ``output.ledger``."""
         found = np.zeros(8)
-        with readable_errors(self.plan):
-            self.kernel.energies(self.world, self.step > 0, found)
+        self.kernel.energies(self.world, self.step > 0, found)
         return read_ledger(self.world, found)
 
     def note_start(self) -> None:

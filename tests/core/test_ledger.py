@@ -39,6 +39,24 @@ def test_elastic_loading_closes_to_a_millionth_at_a_tenth_of_the_stable_step(tmp
     assert abs(simulation.ledger().closure) < 1e-6
 
 
+def test_the_work_of_walls_is_booked_up_to_the_moment_of_the_energies(tmp_path: Path) -> None:
+    """Just after touch the force of a few steps is all there is: half a step too much work would be 4e-3 of it."""
+    simulation = Simulation(load(write(tmp_path, CRUSH), CALM))
+    simulation.advance_to(6000)
+    assert simulation.ledger().walls > 0.0
+    assert abs(simulation.ledger().closure) < 1e-4
+
+
+@pytest.mark.parametrize(("restitution", "most"), [(0.5, 1e-4), (1.0, 5e-4)])
+def test_a_crush_closes_at_the_default_step(tmp_path: Path, restitution: float, most: float) -> None:
+    """Contacts vibrate within few steps, and slip and stick in turns, most of all where no dashpot calms them."""
+    step = 0.8 * Simulation(load(write(tmp_path, CRUSH))).limits.stable
+    contact = f"contacts.pairs.default.restitution={restitution}"
+    ledger = ended(tmp_path, CRUSH, [LEDGER, f"time.step={step}", "time.end.strain=0.15", contact]).ledger()
+    assert ledger.sliding > 1e-2 * ledger.work
+    assert abs(ledger.closure) < most
+
+
 @pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
 def test_the_error_of_an_elastic_impact_falls_with_the_square_of_the_step(tmp_path: Path, integrator: str) -> None:
     errors = []

@@ -145,6 +145,13 @@ def test_check_build_tells_limits_and_what_is_left_out(crush: Path) -> None:
         assert words in told.output
 
 
+@pytest.mark.parametrize("asked", [True, False])
+def test_check_build_tells_whether_the_energy_ledger_is_compiled_in(crush: Path, asked: bool) -> None:
+    told = CliRunner().invoke(main, ["check", "--build", str(crush), "--set", f"output.ledger={asked}"])
+    compiled_in, left_out = told.output.split("Left out")
+    assert ("energy ledger" in compiled_in, "energy ledger" in left_out) == (asked, not asked)
+
+
 def test_velocity_verlet_leapfrog_and_midstep_agree_on_an_elastic_press(crush: Path) -> None:
     elastic = {"bonds.model.yield_stress": "1 GPa", "bonds.model.breakage_strain": 0.5, "time.end.strain": 0.06}
     forces = []

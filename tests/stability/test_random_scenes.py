@@ -5,11 +5,11 @@ from __future__ import annotations
 from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
-from clast.config.scene import build
+from clast.config.scene import SceneConfig, build
 from clast.config.yaml_loader import parse_document
 from tests.scenes import CRUSH
-from tests.stability.entry import GARBAGE, Answer, Entry, Ran, run_entry
-from tests.stability.matrix.steps import at_share
+from tests.stability.entry import ACCURATE, GARBAGE, Answer, Entry, Ran, run_entry
+from tests.stability.matrix.steps import UNSTABLE, at_share
 from tests.stability.measures import kinetic, momentum_error
 from tests.stability.page import outcome
 from tests.stability.scenes import pair
@@ -76,6 +76,22 @@ def test_a_grain_between_plates_never_holds_more_than_it_was_given(
     friction: float,
     share: float,
 ) -> None:
+    grain = pressed(speed, stiffness, yield_strain, breakage_strain, restitution, friction)
+    verdict = run_entry(Entry("a grain", lambda: at_share(grain.changed, share, {}), ledger_closes))
+    assert verdict.kind != GARBAGE, outcome(verdict)
+
+
+def test_a_soft_grain_that_may_outgrow_its_step_holds_no_more_than_it_was_given() -> None:
+    """Contacts stiffen until the step is almost three times the limit, and dissipate what that gives."""
+    grain = pressed(speed=0.1, stiffness=1e6, yield_strain=0.1, breakage_strain=0.1, restitution=0.0, friction=1.0)
+    verdict = run_entry(Entry("a soft grain", lambda: at_share(grain.changed, 0.5, UNSTABLE), ledger_closes))
+    assert verdict.kind == ACCURATE, outcome(verdict)
+
+
+def pressed(
+    speed: float, stiffness: float, yield_strain: float, breakage_strain: float, restitution: float, friction: float
+) -> SceneConfig:
+    """Return the small crush with other numbers."""
     changes = {
         "walls.upper.motion.velocity": [0, 0, -speed],
         "bonds.model.young_modulus": stiffness,
@@ -89,12 +105,11 @@ def test_a_grain_between_plates_never_holds_more_than_it_was_given(
         "time.end": {"steps": 2000},
         "output": {"samples": 100, "frames": 0, "writers": [], "ledger": True},
     }
-    grain = build(parse_document(CRUSH)).changed(changes)
+    return build(parse_document(CRUSH)).changed(changes)
 
-    def judge(ran: Ran) -> Answer:
-        curves = ran.curves
-        given = abs(curves["energy_walls_J"][-1]) + curves["energy_start_J"][-1]
-        return Answer("the energy ledger closes", abs(curves["energy_error_J"][-1]) / given, 0.05)
 
-    verdict = run_entry(Entry("a grain", lambda: at_share(grain.changed, share, {}), judge))
-    assert verdict.kind != GARBAGE, outcome(verdict)
+def ledger_closes(ran: Ran) -> Answer:
+    """Judge what the ledger leaves, as a share of what came in."""
+    curves = ran.curves
+    given = abs(curves["energy_walls_J"][-1]) + curves["energy_start_J"][-1]
+    return Answer("the energy ledger closes", abs(curves["energy_error_J"][-1]) / given, 0.05)

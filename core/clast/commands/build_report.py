@@ -180,6 +180,7 @@ def features(plan: Blueprint) -> list[tuple[str, bool, str]]:
         ("applied loads", plan.applied_loads, "constant forces and torques on particles"),
         ("orientations", plan.orientation, "a quaternion a particle"),
         ("spins", plan.spin, "rotation of particles"),
+        ("energy ledger", plan.ledger, "what is lost, booked at every force evaluation"),
     ]
 
 

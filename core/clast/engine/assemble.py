@@ -17,6 +17,7 @@ from typing import Any
 from clast.engine import compiler, state
 from clast.engine.blueprint import Blueprint
 from clast.engine.entry import Entry
+from clast.engine.law_errors import law_files
 from clast.engine.slots_text import slots_text
 from clast.engine.sources import digest, reachable
 
@@ -86,12 +87,12 @@ def assemble(plan: Blueprint) -> Kernel:
     text = slots_text(plan)
     helpers = _template_helpers()
     name = f"clast_kernel_{digest([*plan.functions(), *helpers], text, _template_text())}"
-    folder = cache_folder() / name
+    folder, laws = cache_folder() / name, law_files(plan.functions())
     _write_package(folder, text)
     _register([*plan.functions(), *helpers])
     package = _import_package(name, folder)
     advance, observe, energies, near_walls, gaps = (
-        Entry(getattr(_submodule(package, file), function), folder / "lock")
+        Entry(getattr(_submodule(package, file), function), folder / "lock", laws)
         for file, function in (
             ("step_loop", "advance"),
             ("observe", "observe"),

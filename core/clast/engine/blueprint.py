@@ -128,7 +128,8 @@ class Blueprint:
     def remembered(self) -> int:
         """Numbers that a contact keeps from one force evaluation to the next: its normal, its history, its drag."""
         books = self.ledger and self.contacts is not None and self.contacts.law.losses is not None
-        kept = width(self.history) + (3 if books else 0)
+        drag = 6 if self.contacts is not None and self.contacts.features.rolling else 3
+        kept = width(self.history) + (drag if books else 0)
         return 3 + kept if kept else 0
 
     def functions(self) -> list[Callable[..., Any]]:

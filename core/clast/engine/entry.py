@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
+
+from clast.engine.law_errors import compiler_errors, law_errors
 
 
 class Entry:
@@ -17,18 +19,27 @@ class Entry:
         Made by :func:`clast.engine.compiler.compiled`.
     lock : Path
         File that processes lock while they compile.
+    laws : set of str
+        Files of the laws that it calls.
     """
 
-    def __init__(self, function: Any, lock: Path) -> None:
-        self.function, self.lock, self.ready = function, lock, False
+    def __init__(self, function: Any, lock: Path, laws: Set[str] = frozenset()) -> None:
+        self.function, self.lock, self.laws, self.ready = function, lock, laws, False
 
     def __call__(self, *arguments: Any) -> Any:
-        """Call it."""
+        """Call it.
+
+        Raises
+        ------
+        PluginError
+            If a law cannot be compiled, or raises something.
+        """
         if not self.ready:
-            with alone(self.lock):
+            with alone(self.lock), compiler_errors(self.laws):
                 self.function.compile(tuple(self.function.typeof_pyval(each) for each in arguments))
             self.ready = True
-        return self.function(*arguments)
+        with law_errors(self.laws):
+            return self.function(*arguments)
 
     @property
     def on_disk(self) -> bool:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import re
 import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
 from clast.engine.records import build, columns, fields, leaves, width
-from clast.engine.sources import source_files
 from clast.errors import PluginError
 from clast.maths.rotation import IDENTITY
 from clast.maths.vec3 import ZERO
 from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, RandomKey, Strain
-from clast.parts.contact_law import ContactLoad, ContactLosses, Touch
+from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Touch
 from clast.scene.plan import bond_constants, material_pairs
 from clast.scene.scene import Scene
 
@@ -77,7 +73,7 @@ def _try_contact(scene: Scene, plan: Blueprint) -> None:
         load, after = _call(law.load, tuple, touch, constants, history, 1e-6, plan.contacts.choices)
         _expect(law.load, load, ContactLoad)
         if plan.ledger and law.losses is not None:
-            rest = (touch, constants, history, load, after, 1e-6, plan.contacts.choices, ZERO)
+            rest = (touch, constants, history, load, after, 1e-6, plan.contacts.choices, NO_DRAG)
             _call(law.losses, ContactLosses, *rest)
         _call(law.energy, float, touch, constants, history, plan.contacts.choices)
 
@@ -127,40 +123,3 @@ def _name(record: type | None) -> str:
 def _where(function: Callable[..., Any]) -> str:
     code = getattr(function, "__code__", None)
     return f"{code.co_filename}:{code.co_firstlineno}" if code is not None else repr(function)
-
-
-@contextmanager
-def readable_errors(plan: Blueprint) -> Iterator[None]:
-    """Turn what numba says of a law that cannot be compiled into the law's file and line.
-
-    Raises
-    ------
-    PluginError
-        Instead of numba's own error, which stays attached as its cause.
-    """
-    from numba.core.errors import NumbaError
-
-    try:
-        yield
-    except NumbaError as error:
-        raise PluginError(_explanation(plan, str(error))) from error
-
-
-def _explanation(plan: Blueprint, text: str) -> str:
-    own = {str(file.resolve()) for file in source_files(plan.functions())}
-    places = [
-        (file, line)
-        for file, line in re.findall(r'File "([^"]+)", line (\d+)', text)
-        if str(Path(file).resolve()) in own
-    ]
-    reasons = [
-        line.strip()
-        for line in text.splitlines()
-        if re.search(r"^(No implementation|.*Error:|Unknown|Use of|Untyped|Cannot)", line.strip())
-    ]
-    where = f"{places[-1][0]}:{places[-1][1]}" if places else "a law of this scene"
-    reason = reasons[-1] if reasons else text.strip().splitlines()[-1]
-    return (
-        f"{where}: cannot be compiled: {reason}. Laws may use floats, tuples, NamedTuples, 'if', 'for' over ranges and "
-        "the functions of math; call the law in plain Python to see that it is right"
-    )

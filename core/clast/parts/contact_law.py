@@ -60,6 +60,19 @@ class ContactLoad(NamedTuple):
     torque_j: Vec
 
 
+class Drag(NamedTuple):
+    """What resists motion without storing energy: viscous force on j in N, rolling torque on i in N m.
+
+    It is handed back at the next evaluation, so that heat is the mean of both times the way.
+    """
+
+    force: Vec
+    torque: Vec
+
+
+NO_DRAG = Drag(ZERO, ZERO)
+
+
 class ContactLosses(NamedTuple):
     """Energy in J that a contact has taken up for good since the forces before.
 
@@ -70,16 +83,15 @@ class ContactLosses(NamedTuple):
     stiffening : float
         What elastic energy loses because a stiffness changes while its spring is tense; negative where it gains. 0 for
         a law whose force is the gradient of its energy.
-    drag : vector
-        Viscous force on j in N, as it resists what the contact moves; handed back at the next evaluation, so that heat
-        is the mean of both times the way.
+    drag : Drag
+        The force as it resists what the contact moves; the torque is kept with rolling friction only.
     """
 
     viscous: float
     sliding: float
     rolling: float
     stiffening: float
-    drag: Vec
+    drag: Drag
 
 
 class MaterialPair(NamedTuple):

@@ -20,12 +20,14 @@ MOST_INERTIAL = 1e-3
 """Inertial number up to which granular flows are quasi-static: da Cruz et al. (2005),
 doi:10.1103/PhysRevE.72.021309."""
 
+COLUMNS = tuple(ENERGY.format(name) for name in (*Ledger._fields, "error"))
+
 Curves = dict[str, NDArray[np.float64]]
 
 
 def columns(ledger: Ledger) -> dict[str, float]:
     """Return the columns of a ledger on the curves, in J, the error last."""
-    return {ENERGY.format(name): value for name, value in (ledger._asdict() | {"error": ledger.error}).items()}
+    return dict(zip(COLUMNS, (*ledger, ledger.error), strict=True))
 
 
 def energy_results(simulation: Simulation, curves: Curves) -> dict[str, Any]:

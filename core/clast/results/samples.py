@@ -36,6 +36,12 @@ class Samples:
         self.particles = np.array(output.tracks.particles, np.int64)
         self.bonds = np.array(output.tracks.bonds, np.int64)
         self.previous_step = 0
+        self.wall_columns = [
+            f"{what}_{wall}_{c}_{unit}"
+            for wall in simulation.gauge.names
+            for what, unit in (("force", "N"), ("moment", "Nm"))
+            for c in "xyz"
+        ]
 
     def next_step(self, step: int) -> int | None:
         """Return the next multiple of the interval, and at last the end."""
@@ -75,9 +81,7 @@ class Samples:
                 "force_upper_N": upper,
                 "force_lower_N": lower,
             }
-        for k, wall in enumerate(gauge.names):
-            row |= {f"force_{wall}_{c}_N": force[k, a] for a, c in enumerate("xyz")}
-            row |= {f"moment_{wall}_{c}_Nm": moment[k, a] for a, c in enumerate("xyz")}
+        row |= zip(self.wall_columns, np.concatenate((force, moment), axis=1).ravel().tolist(), strict=True)
         row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
         return row | (energy.columns(ledger) if simulation.plan.ledger else {})
 

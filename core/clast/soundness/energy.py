@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from clast.engine.kernels.layout import INVERSE_MASS, V, W
+from clast.engine.kernels.layout import V, W
 from clast.engine.ledger import Ledger
 from clast.engine.state import World
 from clast.scene.scene import Scene
@@ -62,7 +62,7 @@ class EnergyWatch:
 
     def __init__(self, scene: Scene, share: float) -> None:
         self.smallest, self.largest = float(scene.radius.min()), float(scene.radius.max())
-        self.mass = float(scene.mass.sum())
+        self.mass, self.driven = float(scene.mass.sum()), np.flatnonzero(scene.prescribed)
         self.allowed = SPARE / (1.0 - min(share, 0.95) ** 2) if share < 1.0 else SPARE
         self.balance = Balance(np.inf, 0.0, 0.0, 0.0)
 
@@ -88,8 +88,7 @@ class EnergyWatch:
 
     def _thrown(self, world: World) -> float:
         """Return the energy of all particles at twice the speed of the fastest driver, in J; least is round-off."""
-        particles = world.particles
-        driven = particles.twist[(particles.body[:, INVERSE_MASS] == 0.0) & (particles.present != 0)]
+        driven = world.particles.twist[self.driven]
         surface = driven[:, V : V + 3], self.largest * driven[:, W : W + 3], world.walls.velocity
         fastest = max(float(np.abs(each).max(initial=0.0)) for each in surface)
         return 2.0 * self.mass * max(fastest, STILL * self.smallest / world.numbers.dt) ** 2

@@ -34,8 +34,8 @@ def lost(world: World, scene: Scene) -> str | None:
 def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | None:
     """Return which particle one step of ``dt`` seconds moves or turns too far."""
     most_way, most_turn = MOST_WAY * scene.radius.min() / dt, MOST_TURN / dt
-    fastest = np.abs(world.particles.twist).max(axis=0)
-    if fastest[V : V + 3].max() <= most_way and fastest[W : W + 3].max() <= most_turn:
+    fastest = np.abs(world.particles.twist)
+    if fastest[:, V : V + 4].max() <= most_way and fastest[:, W : W + 4].max() <= most_turn:
         return None
     twist = np.where(world.particles.present[:, None] != 0, world.particles.twist, 0.0)
     way = np.abs(twist[:, V : V + 3]).max(axis=1) * dt / scene.radius.min()
@@ -54,6 +54,8 @@ def passed_through(near: Nearness, world: World, scene: Scene) -> str | None:
     if scene.config.contacts is None:
         return None
     deepest = max(DEEPEST, scene.config.contacts.start_overlap)
+    if near.largest <= deepest * scene.radius.min():
+        return None
     (i, j, _, overlap), walls, radius = near.pairs, near.walls, world.particles.pose[:, RADIUS]
     share = overlap / np.minimum(radius[i], radius[j])
     if len(share) and share.max() > deepest:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,15 +28,10 @@ class Near(NamedTuple):
     overlap: Floats
 
 
-class Nearness(NamedTuple):
-    """Pairs of particles i and j whose contact counts, and particles at walls: wall and particle."""
+class Nearness:
+    """Where near bodies are: pairs of particles whose contact counts, and particles at walls.
 
-    pairs: Near
-    walls: Near
-
-
-def look_around(world: World, gaps: Gaps) -> Nearness:
-    """Return how near the bodies on the neighbour lists are; pairs in whose stead a bond holds are left out.
+    Most looks ask for no more than the largest overlap; the rest is sorted out when it is asked for.
 
     Parameters
     ----------
@@ -43,14 +39,29 @@ def look_around(world: World, gaps: Gaps) -> Nearness:
     gaps : compiled function
         See :func:`clast.engine.kernels.gaps.gaps`.
     """
-    pairs, near = world.pairs, world.wall_pairs
-    between, at_walls = np.empty((len(pairs.first), 4)), np.empty((len(near.wall), 4))
-    if len(between) or len(at_walls):
-        gaps(world, between, at_walls)
-    counts = between[:, 3] > -np.inf
-    return Nearness(
-        _near(pairs.first[counts], pairs.second[counts], between[counts]), _near(near.wall, near.particle, at_walls)
-    )
+
+    def __init__(self, world: World, gaps: Gaps) -> None:
+        self.world = world
+        self.between, self.at_walls = np.empty((len(world.pairs.first), 4)), np.empty((len(world.wall_pairs.wall), 4))
+        if len(self.between) or len(self.at_walls):
+            gaps(world, self.between, self.at_walls)
+
+    @property
+    def largest(self) -> float:
+        """Largest overlap of any two bodies in m, below 0 for a gap."""
+        return max(float(found[:, 3].max(initial=-np.inf)) for found in (self.between, self.at_walls))
+
+    @cached_property
+    def pairs(self) -> Near:
+        """Particles i and j; pairs in whose stead a bond holds are left out."""
+        pairs, counts = self.world.pairs, self.between[:, 3] > -np.inf
+        return _near(pairs.first[counts], pairs.second[counts], self.between[counts])
+
+    @cached_property
+    def walls(self) -> Near:
+        """Wall and particle."""
+        near = self.world.wall_pairs
+        return _near(near.wall, near.particle, self.at_walls)
 
 
 def _near(first: Any, second: Any, found: Floats) -> Near:

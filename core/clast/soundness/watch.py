@@ -8,7 +8,7 @@ from clast.scene.scene import Scene
 from clast.soundness.energy import EnergyWatch
 from clast.soundness.impacts import ImpactsAhead
 from clast.soundness.motion import lost, passed_through, too_fast
-from clast.soundness.near import Gaps, look_around
+from clast.soundness.near import Gaps, Nearness
 
 
 class Soundness:
@@ -39,7 +39,7 @@ class Soundness:
         found = self.motion_complaint(world, dt)
         if found is not None:
             return found
-        near = look_around(world, self.gaps)
+        near = Nearness(world, self.gaps)
         return passed_through(near, world, self.scene) or self.impacts.complaint(near, world, dt)
 
     def motion_complaint(self, world: World, dt: float) -> str | None:

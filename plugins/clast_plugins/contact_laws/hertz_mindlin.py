@@ -9,7 +9,7 @@ from pydantic import Field
 
 from clast import hookimpl
 from clast.maths.vec3 import ZERO, Vec, across, add, dot, norm, scale, sub
-from clast.parts.contact_law import ContactLaw, ContactLoad, ContactLosses, Features, MaterialPair, Touch
+from clast.parts.contact_law import ContactLaw, ContactLoad, ContactLosses, Drag, Features, MaterialPair, Touch
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 
@@ -236,12 +236,12 @@ def losses(
     after: History,
     dt: float,
     chosen: Choices,
-    drag_before: Vec,
+    before_drag: Drag,
 ) -> ContactLosses:
     """Return what dashpots, slider, rolling and the changing tangential stiffness took up since the forces before.
 
-    The slider has slipped by what the contact moved and the spring did not, under the mean of the friction limit
-    then and now. The spring of stiffness k_t loses ½ Δk_t ξ² where k_t falls by Δk_t: Mindlin's law has no such force.
+    Each is the mean of its force then and now, times its way. The slider has slipped by what the contact moved and the
+    spring did not. The spring loses ½ Δk_t ξ² where its stiffness k_t falls by Δk_t: Mindlin's law has no such force.
     """
     n = touch.normal
     opened = dot(touch.moved, n)
@@ -252,15 +252,15 @@ def losses(
         k_t, k_before = 8.0 * c.G * contact_radius(touch), 8.0 * c.G * sqrt(touch.radius * overlap_before)
         stretch, F_t = sub(after.xi, before.xi), scale(-1.0, across(load.force, n))
         slip = sub(across(touch.moved, n), stretch)
-        share = overlap_before / touch.overlap
-        sliding_heat = 0.5 * (1.0 + share * sqrt(share)) * dot(F_t, slip)
+        F_before = add(scale(k_before, before.xi), across(before_drag.force, n))
+        sliding_heat = 0.5 * dot(add(F_before, F_t), slip)
         drag = add(drag, sub(F_t, scale(k_t, after.xi)))
-        stiffening = 0.25 * (k_before - k_t) * (dot(before.xi, before.xi) + dot(after.xi, after.xi))
-    viscous = 0.5 * dot(add(drag, drag_before), add(scale(opened, n), stretch))
-    rolling_heat = dot(load.torque_i, touch.turned)
+        stiffening = 0.5 * (k_before - k_t) * dot(before.xi, after.xi)
+    viscous = 0.5 * dot(add(drag, before_drag.force), add(scale(opened, n), stretch))
+    rolling_heat = 0.5 * dot(add(load.torque_i, before_drag.torque), touch.turned)
     if chosen.own_spin:
         rolling_heat = -dt * (dot(load.torque_i, touch.spin_i) + dot(load.torque_j, touch.spin_j))
-    return ContactLosses(viscous, sliding_heat, rolling_heat, stiffening, drag)
+    return ContactLosses(viscous, sliding_heat, rolling_heat, stiffening, Drag(drag, load.torque_i))
 
 
 def stiffness(c: Constants, radius: float, overlap: float) -> float:

@@ -8,9 +8,9 @@ from typing import Any
 from clast.engine.compiler import inlined
 from clast.engine.state import Floats, Numbers, Pairs, Particles
 from clast.maths.vec3 import ZERO, add, cross, dot, scale, sub
-from clast.parts.contact_law import Touch
+from clast.parts.contact_law import Drag, Touch
 
-from .lanes import put, vector
+from .lanes import put, row, vector
 from .layout import (
     CONTACT_F,
     CONTACT_FREE,
@@ -65,6 +65,8 @@ from .slots import (
 from .touching import share_since_touch
 
 HISTORY_BASE = CONTACT_FREE + (0 if ONE_MATERIAL else CONTACT_CONSTANTS)
+DRAG_NUMBERS = (6 if ROLLS else 3) if CONTACT_LOSSES else 0
+"""Numbers of a contact's drag that are kept until the next force evaluation, behind its history."""
 ROUNDING = 2.0**-52
 """Least overlap as a share of both radii together: what touches by rounding alone, as accepted overlaps do at the
 start, still overlaps, as laws are promised."""
@@ -95,9 +97,9 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
             scratch[(WI + c) * LANES + lane] = seen[i, W + c]
             scratch[(WJ + c) * LANES + lane] = seen[j, W + c]
     if not ONE_MATERIAL:
-        row = numbers.contact_table[int(body[i, MATERIAL]), int(body[j, MATERIAL])]
+        table = numbers.contact_table[int(body[i, MATERIAL]), int(body[j, MATERIAL])]
         for c in range(CONTACT_CONSTANTS):
-            scratch[(CONTACT_FREE + c) * LANES + lane] = row[c]
+            scratch[(CONTACT_FREE + c) * LANES + lane] = table[c]
     if REMEMBERS:
         twist, (r_i, r_j) = particles.twist, radii(particles, i, j, numbers)
         for c in range(3):
@@ -109,9 +111,10 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
         for c in range(HISTORY):
             scratch[(HISTORY_BASE + c) * LANES + lane] = pairs.history[k, 3 + c]
     if CONTACT_LOSSES:
-        for c in range(3):
-            if ROLLS:
+        if ROLLS:
+            for c in range(3):
                 scratch[(TURNED + c) * LANES + lane] = particles.twist[j, W + c] - particles.twist[i, W + c]
+        for c in range(DRAG_NUMBERS):
             scratch[(DRAG + c) * LANES + lane] = pairs.history[k, 3 + HISTORY + c]
 
 
@@ -157,6 +160,18 @@ def read_touch(scratch: Floats, lane: int, numbers: Numbers, dt: float) -> tuple
 
 
 @inlined
+def read_drag(scratch: Floats, lane: int) -> Drag:
+    """Return the drag of a lane's contact at the forces before."""
+    return Drag(vector(scratch, DRAG, lane), vector(scratch, DRAG + 3, lane) if ROLLS else ZERO)
+
+
+@inlined
+def kept_drag(histories: Floats, k: int) -> Drag:
+    """Return the drag that contact k had at the forces before."""
+    return Drag(row(histories, k, 3 + HISTORY), row(histories, k, 6 + HISTORY) if ROLLS else ZERO)
+
+
+@inlined
 def contact_lane(scratch: Floats, lane: int, shared: Any, numbers: Numbers, dt: float) -> None:
     """Compute the contact of one lane: force on j, moments on both, new history."""
     touch, lever_i, lever_j, share_moved = read_touch(scratch, lane, numbers, dt)
@@ -176,12 +191,14 @@ def contact_lane(scratch: Floats, lane: int, shared: Any, numbers: Numbers, dt: 
         put(scratch, NORMAL, lane, n)
         write_history(scratch, HISTORY_BASE, lane, kept)
     if CONTACT_LOSSES:
-        lost = contact_losses(touch, constants, history, load, kept, dt, CHOICES, vector(scratch, DRAG, lane))
+        lost = contact_losses(touch, constants, history, load, kept, dt, CHOICES, read_drag(scratch, lane))
         scratch[LOST * LANES + lane] = lost.viscous / share_moved  # drag acts all the way that the step is long
         scratch[(LOST + 1) * LANES + lane] = lost.sliding
         scratch[(LOST + 2) * LANES + lane] = lost.rolling
         scratch[(LOST + 3) * LANES + lane] = lost.stiffening
-        put(scratch, DRAG, lane, lost.drag)
+        put(scratch, DRAG, lane, lost.drag.force)
+        if ROLLS:
+            put(scratch, DRAG + 3, lane, lost.drag.torque)
 
 
 @inlined
@@ -202,7 +219,7 @@ def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: i
         for c in range(HISTORY):
             pairs.history[k, 3 + c] = scratch[(HISTORY_BASE + c) * LANES + lane]
     if CONTACT_LOSSES:
-        for c in range(3):
+        for c in range(DRAG_NUMBERS):
             pairs.history[k, 3 + HISTORY + c] = scratch[(DRAG + c) * LANES + lane]
         if sides & FIRST:
             for term in range(4):

@@ -7,7 +7,7 @@ from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
 from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
-from .contact_lane import contact_lane, gather, radii, read_touch, scatter
+from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
 from .lanes import put, row, vector
 from .layout import (
     FIRST,
@@ -17,10 +17,12 @@ from .layout import (
     REST,
     RI,
     RJ,
+    ROLLING,
     VISCOUS,
     WOKEN,
     D,
     V,
+    W,
     X,
 )
 from .slots import (
@@ -32,6 +34,7 @@ from .slots import (
     ONE_SIZE,
     REMEMBERS,
     RESTS,
+    ROLLS,
     VELOCITY_FORCES,
     contact_energy,
     fresh_history,
@@ -61,17 +64,20 @@ def meet(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: 
 
 
 @inlined
-def parting_loss(particles: Particles, pairs: Pairs, k: int, dt: float) -> float:
-    """Return what the drag of the last evaluation still takes up while pair k comes apart."""
-    twist, last = particles.twist, row(pairs.history, k, 3 + HISTORY)
-    return 0.5 * dt * dot(last, sub(row(twist, pairs.second[k], V), row(twist, pairs.first[k], V)))
+def book_parting(particles: Particles, pairs: Pairs, k: int, dt: float, book: Floats) -> None:
+    """Book what the drag of the last evaluation still takes up while pair k comes apart."""
+    twist, i, j = particles.twist, pairs.first[k], pairs.second[k]
+    last = kept_drag(pairs.history, k)
+    book[VISCOUS] += 0.5 * dt * dot(last.force, sub(row(twist, j, V), row(twist, i, V)))
+    if ROLLS:
+        book[ROLLING] += 0.5 * dt * dot(last.torque, sub(row(twist, j, W), row(twist, i, W)))
 
 
 @inlined
 def forget(pairs: Pairs, k: int) -> None:
     """Note that pair k has come apart: when it meets again it begins anew."""
     pairs.touching[k] = 0
-    for c in range(3 + HISTORY + (3 if CONTACT_LOSSES else 0)):
+    for c in range(3 + HISTORY + DRAG_NUMBERS):
         pairs.history[k, c] = 0.0
 
 
@@ -166,7 +172,7 @@ def sweep_contacts(
                     book[WOKEN] += waking_energy(particles, pairs, k, numbers, scratch, count, dt)
         if REMEMBERS and pairs.touching[k] > touches:
             if CONTACT_LOSSES and pairs.sides[k] & FIRST:
-                book[VISCOUS] += parting_loss(particles, pairs, k, dt)
+                book_parting(particles, pairs, k, dt, book)
             forget(pairs, k)
         active[count] = k
         count += touches

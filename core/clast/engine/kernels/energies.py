@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from clast.engine.compiler import compiled, inlined
-from clast.engine.state import Floats, Pairs, Particles, WallPairs, Walls, World
-from clast.maths.vec3 import ZERO, Vec, dot, scale, sub
-from clast.parts.contact_law import Touch
+from clast.engine.compiler import compiled, inlined, routine
+from clast.engine.state import Floats, Indices, Numbers, Pairs, Particles, WallPairs, Walls, World
+from clast.maths.vec3 import dot, scale, sub
+from clast.parts.contact_law import NO_DRAG, ContactLosses, Drag, Touch
 
 from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
-from .contact_lane import HISTORY_BASE, gather, read_touch
+from .contact_lane import HISTORY_BASE, gather, kept_drag, read_drag, read_touch
 from .contact_sweep import joined, meet
 from .lanes import row, vector
 from .layout import (
     BOND_SCRATCH,
-    DRAG,
+    CONTACT_F,
+    CONTACT_FREE,
     ENERGY,
     FIRST,
     INTACT,
     INVERSE_INERTIA,
     INVERSE_MASS,
     LANES,
+    LOST,
     MATERIAL,
     NORMAL,
     RADIUS,
@@ -43,6 +47,7 @@ from .slots import (
     CONTACTS,
     HISTORY,
     LAG,
+    ONE_MATERIAL,
     ORIENTATION,
     STAGES,
     WALLS,
@@ -57,6 +62,7 @@ from .slots import (
     load_history,
     read_bond_state,
     read_constants,
+    read_contact_constants,
     read_history,
     read_kinematic_state,
     read_reference,
@@ -68,6 +74,9 @@ from .wall_sweep import wall_touch
 
 SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 """Time since the last force evaluation when a step is over, as a fraction of the step."""
+
+CONTACT_ENERGY = CONTACT_F
+"""Slot of the energy of a lane's contact, where its force is not computed."""
 
 LATEST, WALLS_DID = 3, 4
 """Where losses since the last force evaluation begin among the energies, and the place of the work of walls there."""
@@ -121,8 +130,7 @@ def elastic_energies(world: World, scratch: Floats, time: float, lost: Floats) -
     """Return the elastic energies of contacts and of bonds, some time after the last force evaluation; add losses."""
     contacts = bonds = 0.0
     if CONTACTS:
-        for k in range(len(world.pairs.first)):
-            contacts += pair_energy(world, world.pairs, k, scratch, time, lost)
+        contacts = energy_of_pairs(world, world.pairs, scratch, time, lost)
     if WALLS:
         for p in range(len(world.wall_pairs.wall)):
             contacts += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time, lost)
@@ -147,7 +155,7 @@ def kinetic_energy(particles: Particles, dt: float) -> float:
     return total
 
 
-@inlined
+@routine
 def energy_of_bonds(world: World, scratch: Floats, time: float) -> float:
     """Return the elastic energy of all bonds; those that let go slowly count with the share of load they have left.
 
@@ -178,38 +186,74 @@ def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[flo
 
 
 @inlined
-def energy_of(touch: Touch, constants, history, time: float, drag: Vec, share: float, lost: Floats) -> float:  # type: ignore[no-untyped-def]
-    """Return the elastic energy of a contact some time after its forces were evaluated; add what it has lost since."""
+def energy_of(touch: Touch, constants, history, time: float, drag: Drag):  # type: ignore[no-untyped-def]
+    """Return the elastic energy of a contact some time after its forces were evaluated, and what it has lost since."""
+    since = ContactLosses(0.0, 0.0, 0.0, 0.0, NO_DRAG)
     if time > 0.0:
         load, kept = contact_load(touch, constants, history, time, CHOICES)
         if CONTACT_LOSSES:
             since = contact_losses(touch, constants, history, load, kept, time, CHOICES, drag)
-            lost[VISCOUS] += since.viscous / share
-            lost[SLIDING] += since.sliding
-            lost[ROLLING] += since.rolling
-            lost[STIFFENING] += since.stiffening
         history = kept
-    return contact_energy(touch, constants, history, CHOICES)  # type: ignore[no-any-return]
+    return contact_energy(touch, constants, history, CHOICES), since
+
+
+@routine
+def energy_of_pairs(world: World, pairs: Pairs, scratch: Floats, time: float, lost: Floats) -> float:
+    """Return the elastic energy of all touching pairs, in blocks of lanes; add what they have lost."""
+    active, count, total = np.empty(LANES, np.uint32), 0, 0.0
+    for k in range(len(pairs.first)):
+        counts = meet(world.particles, pairs, k, world.numbers, scratch, count) and pairs.sides[k] & FIRST != 0
+        if not BONDED_PAIRS_TOUCH:
+            counts = counts and not joined(pairs, world.bonds, k)
+        active[count] = k
+        count += 1 if counts else 0
+        if count == LANES:
+            total = add_block(world, pairs, active, count, scratch, time, total, lost)
+            count = 0
+    return add_block(world, pairs, active, count, scratch, time, total, lost)
+
+
+@routine
+def add_block(
+    world: World,
+    pairs: Pairs,
+    active: Indices,
+    count: int,
+    scratch: Floats,
+    time: float,
+    total: float,
+    lost: Floats,
+) -> float:
+    """Return a total with the energies of one block of touching pairs added; add what they have lost."""
+    particles, numbers = world.particles, world.numbers
+    for lane in range(count):
+        gather(particles, pairs, active[lane], numbers, scratch, lane)
+    material = int(particles.body[0, MATERIAL])
+    shared = row_constants(numbers.contact_table[material, material])
+    for lane in range(LANES):  # always all: a loop of fixed length vectorises
+        energy_of_pair(scratch, lane, shared, numbers, time)
+    for lane in range(count):
+        total += scratch[CONTACT_ENERGY * LANES + lane]
+        for term in range(4):
+            lost[term] += scratch[(LOST + term) * LANES + lane]
+    return total
 
 
 @inlined
-def pair_energy(world: World, pairs: Pairs, k: int, scratch: Floats, time: float, lost: Floats) -> float:
-    """Return the elastic energy of pair k, 0 where it does not touch."""
-    particles, numbers = world.particles, world.numbers
-    if not pairs.sides[k] & FIRST or not meet(particles, pairs, k, numbers, scratch, 0):
-        return 0.0
-    if not BONDED_PAIRS_TOUCH and joined(pairs, world.bonds, k):
-        return 0.0
-    gather(particles, pairs, k, numbers, scratch, 0)
-    touch, _, _, share = read_touch(scratch, 0, numbers, time)
-    history = read_history(scratch, HISTORY_BASE, 0)
+def energy_of_pair(scratch: Floats, lane: int, shared: Any, numbers: Numbers, time: float) -> None:
+    """Write the elastic energy of a lane's contact some time after its forces were evaluated, and what it has lost."""
+    touch, _, _, share = read_touch(scratch, lane, numbers, time)
+    constants = shared if ONE_MATERIAL else read_contact_constants(scratch, CONTACT_FREE, lane)
+    history = read_history(scratch, HISTORY_BASE, lane)
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, touch.normal) + dot(touch.spin_j, touch.normal)) * time
-        history = carry_history(history, vector(scratch, NORMAL, 0), touch.normal, spin)
-    i, j = pairs.first[k], pairs.second[k]
-    constants = row_constants(numbers.contact_table[int(particles.body[i, MATERIAL]), int(particles.body[j, MATERIAL])])
-    drag = vector(scratch, DRAG, 0) if CONTACT_LOSSES else ZERO
-    return energy_of(touch, constants, history, time, drag, share, lost)
+        history = carry_history(history, vector(scratch, NORMAL, lane), touch.normal, spin)
+    drag = read_drag(scratch, lane) if CONTACT_LOSSES else NO_DRAG
+    scratch[CONTACT_ENERGY * LANES + lane], since = energy_of(touch, constants, history, time, drag)
+    scratch[LOST * LANES + lane] = since.viscous / share
+    scratch[(LOST + 1) * LANES + lane] = since.sliding
+    scratch[(LOST + 2) * LANES + lane] = since.rolling
+    scratch[(LOST + 3) * LANES + lane] = since.stiffening
 
 
 @inlined
@@ -231,5 +275,10 @@ def wall_energy(
         spin = 0.5 * dot(touch.spin_i, near.normal) * time
         history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), near.normal, spin)
     constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
-    drag = row(pairs.history, p, 3 + HISTORY) if CONTACT_LOSSES and pairs.touching[p] != 0 else ZERO
-    return energy_of(touch, constants, history, time, drag, share, lost)
+    drag = kept_drag(pairs.history, p) if CONTACT_LOSSES and pairs.touching[p] != 0 else NO_DRAG
+    energy, since = energy_of(touch, constants, history, time, drag)
+    lost[VISCOUS] += since.viscous / share
+    lost[SLIDING] += since.sliding
+    lost[ROLLING] += since.rolling
+    lost[STIFFENING] += since.stiffening
+    return energy  # type: ignore[no-any-return]

@@ -18,6 +18,7 @@ from .layout import (
     LANES,
     TURN_Q,
     TURN_W,
+    WALL_WORK,
     WEIGHT,
     F,
     M,
@@ -209,6 +210,13 @@ def move_walls(walls: Walls, time: float, drift_time: float, reach2: float) -> b
             away2 += away * away
         stale = stale or not away2 <= reach2
     return stale
+
+
+@inlined
+def book_wall_work(walls: Walls, span: float, book: Floats) -> None:
+    """Book half of the work that walls do on the way from one force evaluation to the next, with the forces at one."""
+    for w in range(len(walls.shape_kind)):
+        book[WALL_WORK] -= 0.5 * span * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))
 
 
 @routine

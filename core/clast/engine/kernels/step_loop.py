@@ -17,6 +17,7 @@ from .bond_sweep import sweep_bonds
 from .contact_sweep import sweep_contacts
 from .layout import DONE, LANES, MOVED, PRIMED, STAGE, STALE, STEP
 from .motion import (
+    book_wall_work,
     clear_wall_forces,
     move_after_forces,
     move_before_forces,
@@ -70,7 +71,7 @@ def count_stage(clock: Integers) -> bool:
 
 
 @inlined
-def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float) -> None:
+def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float, span: float) -> None:
     """Move the chunks from ``begin`` to ``end``, and the walls, to where forces are evaluated."""
     numbers, chunks = world.numbers, world.chunks
     for c in range(begin, end):
@@ -79,6 +80,7 @@ def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage
     if WALLS and first:
         moved_on = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.wall_reach2)
         world.stale[-1] = 1 if moved_on else 0
+        book_wall_work(world.walls, span, world.ledger[-1])
         clear_wall_forces(world.walls)
 
 
@@ -120,14 +122,14 @@ def advance(world: World, steps: int, team: Team) -> int:
     while clock[STEP] < steps or clock[PRIMED] == 0:
         stage = stage_now(clock, numbers.start_kick)
         time = numbers.first_time + (clock[STEP] - numbers.first_step) * numbers.dt
+        span = time_since_forces(clock, numbers)
         if clock[MOVED] == 0:
-            move_to_forces(world, begin, end, first, stage, time)
+            move_to_forces(world, begin, end, first, stage, time, span)
             if CHUNKED:
                 wait(team)
             clock[MOVED] = 1
             if world.stale.any():
                 return STALE
-        span = time_since_forces(clock, numbers)
         sweep_chunks(world, begin, end, active, span, clock[STEP])
         if WALLS:
             if CHUNKED:

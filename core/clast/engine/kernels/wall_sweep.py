@@ -5,8 +5,9 @@ from __future__ import annotations
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
 from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
-from clast.parts.contact_law import Touch
+from clast.parts.contact_law import NO_DRAG, Touch
 
+from .contact_lane import kept_drag
 from .lanes import row
 from .layout import (
     INVERSE_INERTIA,
@@ -17,18 +18,19 @@ from .layout import (
     SLIDING,
     STIFFENING,
     VISCOUS,
-    WALL_WORK,
     F,
     M,
     V,
     W,
     X,
 )
+from .motion import book_wall_work
 from .slots import (
     CHOICES,
     CONTACT_LOSSES,
     HISTORY,
     REMEMBERS,
+    ROLLS,
     SPIN,
     VELOCITY_FORCES,
     carry_history,
@@ -105,8 +107,9 @@ def sweep_walls(
         radius = particles.pose[k, RADIUS]
         if near.distance >= radius:
             if CONTACT_LOSSES and pairs.touching[p] != 0:
-                apart = sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
-                book[VISCOUS] += 0.5 * dt * dot(row(pairs.history, p, 3 + HISTORY), apart)
+                last, apart = kept_drag(pairs.history, p), sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
+                book[VISCOUS] += 0.5 * dt * dot(last.force, apart)
+                book[ROLLING] -= 0.5 * dt * dot(last.torque, row(particles.twist, k, W))
             pairs.touching[p] = 0
             continue
         n = near.normal
@@ -124,14 +127,15 @@ def sweep_walls(
                 pairs.history[p, c] = n[c]
             store_history(pairs.history[p], kept)
         if CONTACT_LOSSES:
-            drag = row(pairs.history, p, 3 + HISTORY) if pairs.touching[p] != 0 else ZERO
+            drag = kept_drag(pairs.history, p) if pairs.touching[p] != 0 else NO_DRAG
             lost = contact_losses(touch, constants, history, load, kept, dt, CHOICES, drag)
             book[VISCOUS] += lost.viscous / share_moved  # drag acts all the way that the step is long
             book[SLIDING] += lost.sliding
             book[ROLLING] += lost.rolling
             book[STIFFENING] += lost.stiffening
             for c in range(3):
-                pairs.history[p, 3 + HISTORY + c] = lost.drag[c]
+                pairs.history[p, 3 + HISTORY + c] = lost.drag.force[c]
+                if ROLLS:
+                    pairs.history[p, 6 + HISTORY + c] = lost.drag.torque[c]
         pairs.touching[p] = 1
-    for w in range(len(walls.shape_kind)):
-        book[WALL_WORK] -= dt * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))
+    book_wall_work(walls, dt, book)
