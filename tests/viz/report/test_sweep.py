@@ -32,6 +32,11 @@ paper,0,0.4,drops,3,1.414,2,1,2
 paper,1,0.5,peak_stress_Pa,1500000,0,1,-inf,inf
 paper,1,0.5,strain_at_peak,0.14,0,1,-inf,inf
 """
+ENSEMBLE = """variant,measure,grains,mean,mean_low,mean_high,\
+deviation,deviation_low,deviation_high,weibull_modulus,weibull_scale
+paper,peak_force_N,40,14.81,13.5,16.12,4.2,3.35,5.05,3.912,16.3
+paper,work_J_per_m3,40,52000,51000,53000,0,0,0,nan,nan
+"""
 VERDICTS = """says,source,variant,verdict,evidence
 the stress falls with porosity,"Fig. 10 & 11",paper,reproduced,"rank correlation -1"
 drops are the same,,paper,not reproduced,p = 0.01
@@ -99,6 +104,23 @@ def test_what_a_sweep_really_writes_can_be_read(tmp_path: Path) -> None:
     assert page.rows["it takes as long"][1] == "reproduced"
 
 
+def test_an_ensemble_has_intervals_and_a_weibull_modulus(sweep: Path) -> None:
+    (sweep / "ensemble.csv").write_text(ENSEMBLE, encoding="utf-8")
+    (sweep / "weibull.png").write_bytes(b"\x89PNG picture")
+    report(sweep)
+    page = Page(sweep / "report.html")
+    heads = ["variant", "measure", "grains", "mean [95 % interval]", "deviation [95 % interval]", "Weibull modulus"]
+    assert heads in page.cells
+    assert ["paper", "peak force [N]", "40", "14.8 [13.5, 16.1]", "4.20 [3.35, 5.05]", "3.912"] in page.cells
+    assert ["paper", "work [kJ/m³]", "40", "52.0 [51.0, 53.0]", "0", ""] in page.cells
+    assert page.loaded.count("data:image/png;base64,iVBORyBwaWN0dXJl") == 3
+
+
+def test_a_sweep_of_few_grains_has_no_ensemble(sweep: Path) -> None:
+    report(sweep)
+    assert "ensemble" not in Page(sweep / "report.html").ids
+
+
 def test_verdicts_have_colours(sweep: Path) -> None:
     report(sweep)
     page = Page(sweep / "report.html")
@@ -133,11 +155,12 @@ def test_a_sweep_comes_alone(sweep: Path) -> None:
         ("runs.csv", None, "`clast sweep` writes it when its runs have ended"),
         ("runs.csv", b"run,state\n", "it has no column variant, point, repeat, reason"),
         ("statistics.csv", b"\xff\xfe", "cannot be read"),
+        ("ensemble.csv", b"variant,measure\n", "it has no column grains, mean"),
         ("study.yaml", b"a: [", "study.yaml: cannot be read"),
     ],
 )
 def test_a_broken_table_is_one_message(sweep: Path, name: str, content: bytes | None, told: str) -> None:
-    (sweep / name).unlink()
+    (sweep / name).unlink(missing_ok=True)
     if content is not None:
         (sweep / name).write_bytes(content)
     result = report(sweep)
