@@ -13,14 +13,15 @@ from matplotlib.figure import Figure
 
 from clast.calibration.fit import Fit, Floats
 from clast.calibration.identify import LOOSE
+from clast.calibration.layout import ACCOUNT, FITTED, HISTORY, PAGE, PICTURE, RUNS
 from clast.calibration.proposal import misfit
+from clast.calibration.record import Grid, Record, write_record
 from clast.config.yaml_loader import dump_yaml
 from clast.reproduce.section import table
 from clast.results.whole_file import whole_file
 from clast.studies.plots import STYLE
 from clast.studies.table import write_csv
-
-FITTED, HISTORY, PAGE, PICTURE = "fitted.yaml", "history.csv", "calibration.md", "fit.png"
+from clast.studies.work import DONE
 
 
 def parameter_rows(fit: Fit) -> tuple[list[str], list[list[str]]]:
@@ -51,7 +52,7 @@ def slope_rows(fit: Fit) -> tuple[list[str], list[list[str]]]:
 
 
 def confusions(fit: Fit) -> list[str]:
-    """Return what the targets leave open, in words."""
+    """Return what the targets leave open, in words: sentences without their full stop."""
     told = []
     names = [axis.name for axis in fit.axes]
     for members in fit.identified.loose:
@@ -67,9 +68,7 @@ def confusions(fit: Fit) -> list[str]:
 
 def page(fit: Fit) -> str:
     """Return the account as Markdown."""
-    config = fit.config
-    runs = sum(len(rows) for rows in fit.rows)
-    failed = sum(row.state != "done" for rows in fit.rows for row in rows)
+    config, runs, failed = fit.config, len(fit.table.rows), _failed(fit)
     lost = f", {failed} of them failed" if failed else ""
     parts = [
         f"# {config.calibration}",
@@ -93,9 +92,32 @@ def page(fit: Fit) -> str:
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
+def _failed(fit: Fit) -> int:
+    return sum(row.state != DONE for row in fit.table.rows)
+
+
+def record(fit: Fit) -> Record:
+    """Return the account as data."""
+    grids = [Grid(heads=heads, rows=rows) for heads, rows in (parameter_rows(fit), target_rows(fit), slope_rows(fit))]
+    return Record(
+        name=fit.config.calibration,
+        description=fit.config.description,
+        points=len(fit.shares),
+        repeats=fit.config.repeats,
+        runs=len(fit.table.rows),
+        failed=_failed(fit),
+        best=fit.best,
+        parameters=grids[0],
+        targets=grids[1],
+        sensitivities=grids[2],
+        distances=fit.expected()[0].tolist(),
+        left_open=[f"{told}." for told in confusions(fit)],
+    )
+
+
 def write(fit: Fit, folder: Path) -> list[Path]:
-    """Write the fitted scene, the history, all runs, the account and its picture."""
-    paths = [folder / name for name in (FITTED, PAGE, HISTORY, "runs.csv", PICTURE)]
+    """Write the fitted scene, the history, all runs, the account and its picture; last what says that all is there."""
+    paths = [folder / name for name in (FITTED, PAGE, HISTORY, RUNS, PICTURE, ACCOUNT)]
     head = f"# Fitted by: clast calibrate, {fit.config.calibration}; see {PAGE}\n"
     for path, text in ((paths[0], head + dump_yaml(fit.scene.resolved())), (paths[1], page(fit))):
         with whole_file(path) as draft:
@@ -103,6 +125,7 @@ def write(fit: Fit, folder: Path) -> list[Path]:
     write_history(fit, paths[2])
     write_csv(fit.table, paths[3])
     draw(fit, paths[4])
+    write_record(record(fit), paths[5])
     return paths
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from clast.calibration.config import CalibrationConfig
 from clast.calibration.identify import Identified, identify
+from clast.calibration.layout import ASKED
 from clast.calibration.proposal import misfit, next_point, optimum
 from clast.calibration.responses import Goal, Response, goals, respond
 from clast.calibration.surrogate import Surrogate, fit
@@ -25,8 +26,6 @@ from clast.studies.table import Row, Table, gather
 from clast.studies.tasks import at_point, changed, repeated
 
 Floats = NDArray[np.float64]
-NAME = "calibration.yaml"
-"""The calibration as it was asked for, in the folder of its runs."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +153,7 @@ class Fitting:
             scene = at_point(config, self.scene, point, "parameters")
             tasks += repeated(scene, "", number, point, config.repeats, config.grain)
             self.shares.append(np.asarray(share))
-        settle(self.folder, config.document, tasks, NAME)
+        settle(self.folder, config.document, tasks, ASKED)
         names = [task.name for task in tasks]
         results = conduct(self.folder, names, self.workers, self.audience)
         rows = gather(self.folder, tasks, states(self.folder, names, results)).rows

@@ -15,6 +15,7 @@ from clast import Simulation, load, run_scene
 from clast.calibration.config import load_calibration
 from clast.calibration.identify import identify
 from clast.calibration.proposal import misfit, next_point, optimum
+from clast.calibration.record import read_record
 from clast.calibration.responses import Goal, Response
 from clast.calibration.surrogate import fit
 from clast.cli import main
@@ -70,6 +71,12 @@ def test_a_modulus_is_found_from_a_force_and_the_scene_that_is_left_has_it(tmp_p
     assert Simulation(fitted).last_step > 0
     page = (tmp_path / "out" / "calibration.md").read_text()
     assert f"| {GLASS} | 1e+08 to 1e+09 | 4.2" in page.replace("4.1", "4.2")
+    account = read_record(tmp_path / "out" / "account.json")
+    assert (account.name, account.points, account.repeats, account.runs, account.failed) == ("fit", 10, 1, 10, 0)
+    assert [row[0] for row in account.parameters.rows] == [GLASS]
+    assert account.targets.rows[0][0] == account.sensitivities.rows[0][0] == "peak_force_N"
+    assert abs(account.distances[0]) < 1.0
+    assert account.left_open == []
     assert (tmp_path / "out" / "fit.png").read_bytes().startswith(b"\x89PNG")
     before = {each: each.stat().st_mtime_ns for each in (tmp_path / "out" / "runs").rglob("summary.json")}
     assert len(before) == 10
@@ -94,6 +101,11 @@ def test_moduli_that_only_act_together_are_said_to(tmp_path: Path) -> None:
     told = calibrate(file, tmp_path / "out")
     assert f"{GLASS} and {PLATE} cannot be told apart" in told.output
     assert "2 parameters, 1 targets" in (tmp_path / "out" / "calibration.md").read_text()
+    left_open = read_record(tmp_path / "out" / "account.json").left_open
+    assert [sentence.split(":")[0] for sentence in left_open] == [
+        f"{GLASS} and {PLATE} cannot be told apart",
+        "2 parameters, 1 targets",
+    ]
 
 
 def test_a_parameter_that_does_nothing_is_said_to(tmp_path: Path) -> None:
@@ -181,7 +193,7 @@ def test_a_calibration_is_the_same_every_time(tmp_path: Path) -> None:
     file = calibration_file(tmp_path, targets=target, budget=8)
     for name in ("one", "two"):
         assert calibrate(file, tmp_path / name).exit_code == 0
-    for name in ("history.csv", "fitted.yaml"):
+    for name in ("history.csv", "fitted.yaml", "account.json"):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
 
 
