@@ -166,7 +166,7 @@ def view(folder: Path) -> None:
     help="The HTML file; by default report.html in the folder of RUN, for several in the working folder.",
 )
 def report(folders: tuple[Path, ...], output: Path | None) -> None:
-    """Write one HTML page about RUN, the folder of a run or a sweep; several runs stand side by side."""
+    """Write one HTML page about RUN, the folder of a run, a sweep or a calibration; several runs stand side by side."""
     from clast.commands import report as report_command
     from clast.results.watch import stoppable
 

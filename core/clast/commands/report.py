@@ -1,4 +1,4 @@
-"""``clast report``: one HTML file about runs, or about a sweep."""
+"""``clast report``: one HTML file about runs, a sweep or a calibration."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ def report(folders: Sequence[Path], output: Path | None = None) -> None:
     Parameters
     ----------
     folders : sequence of Path
-        Of runs, or of one sweep; one that is given twice counts once.
+        Of runs, or of one sweep or calibration; one that is given twice counts once.
     output : Path or None
         The file; where not given, ``report.html`` in the folder, or in the working folder for several.
 
     Raises
     ------
     ClastError
-        If a folder is neither that of a run nor that of a sweep.
+        If a folder is not that of a run, a sweep or a calibration.
     """
     from clast_viz.report.write import write_report
 

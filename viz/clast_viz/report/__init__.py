@@ -1,1 +1,1 @@
-"""Report: one offline HTML file about a run or about several runs beside each other."""
+"""Report: one offline HTML file about a run, several runs beside each other, a sweep or a calibration."""

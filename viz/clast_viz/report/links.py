@@ -1,9 +1,10 @@
-"""Links from a page to the files of a run, so that both can be moved together."""
+"""Links from a page to the files of a folder, so that both can be moved together."""
 
 from __future__ import annotations
 
 import base64
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import quote
@@ -21,7 +22,7 @@ FILES = {
 
 
 class Link(NamedTuple):
-    """A file of a run: its address relative to the page, its name, what it is, and how large."""
+    """A file of a folder: its address relative to the page, its name, what it is, and how large."""
 
     address: str
     name: str
@@ -29,11 +30,11 @@ class Link(NamedTuple):
     size: str
 
 
-def links(folder: Path, page: Path) -> list[Link]:
-    """Return links to the files that a run folder holds."""
+def links(folder: Path, page: Path, files: Mapping[str, str] = FILES) -> list[Link]:
+    """Return links to the files that a folder holds, of those that are known: name -> what it is."""
     return [
         Link(address(folder / name, page), name, what, size_text((folder / name).stat().st_size))
-        for name, what in FILES.items()
+        for name, what in files.items()
         if (folder / name).is_file()
     ]
 
