@@ -13,7 +13,10 @@ from matplotlib.figure import Figure
 
 from clast.calibration.fit import Fit, Floats
 from clast.calibration.identify import LOOSE
-from clast.calibration.layout import ACCOUNT, FITTED, HISTORY, PAGE, PICTURE, RUNS
+from clast.calibration.layout import ACCOUNT, AT_THE_END = 0.01
+"""Share of a range that counts as its end."""
+
+FITTED, HISTORY, PAGE, PICTURE, RUNS
 from clast.calibration.proposal import misfit
 from clast.calibration.record import Grid, Record, write_record
 from clast.config.yaml_loader import dump_yaml
@@ -57,10 +60,13 @@ def confusions(fit: Fit) -> list[str]:
     names = [axis.name for axis in fit.axes]
     for members in fit.identified.loose:
         if len(members) == 1:
-            told.append(f"{names[members[0]]} has next to no influence on the targets: any value of its range will do")
+            told.append(f"{names[members[0]]} is hardly determined: near the optimum the targets do not notice it")
         else:
             listed = " and ".join(names[k] for k in members)
             told.append(f"{listed} cannot be told apart: they can change together without the targets noticing")
+    for axis, share in zip(fit.axes, fit.shares[fit.best], strict=True):
+        if not AT_THE_END < share < 1.0 - AT_THE_END:
+            told.append(f"{axis.name} lies at the end of its range: a wider range may fit better")
     if len(fit.goals) < len(names):
         told.append(f"{len(names)} parameters, {len(fit.goals)} targets: some of the former are not determined")
     return told

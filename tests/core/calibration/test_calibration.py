@@ -113,8 +113,15 @@ def test_a_parameter_that_does_nothing_is_said_to(tmp_path: Path) -> None:
     friction = {"contacts.pairs.default.sliding_friction": {"from": 0, "to": 1}}
     file = calibration_file(tmp_path, parameters={GLASS: BOUNDS} | friction, targets=target, budget=16)
     told = calibrate(file, tmp_path / "out")
-    assert "contacts.pairs.default.sliding_friction has next to no influence" in told.output
+    assert "contacts.pairs.default.sliding_friction is hardly determined" in told.output
     assert "not determined" in told.output
+
+
+def test_an_optimum_at_the_end_of_a_range_is_said_to_be(tmp_path: Path) -> None:
+    target = {"peak_force_N": {"value": measured(tmp_path)["peak_force_N"], "within": 0.02}}
+    narrow = {GLASS: {"from": "100 MPa", "to": "300 MPa"}}
+    told = calibrate(calibration_file(tmp_path, parameters=narrow, targets=target, budget=6), tmp_path / "out")
+    assert f"{GLASS} lies at the end of its range" in told.output
 
 
 @pytest.mark.parametrize(
