@@ -13,10 +13,7 @@ from matplotlib.figure import Figure
 
 from clast.calibration.fit import Fit, Floats
 from clast.calibration.identify import LOOSE
-from clast.calibration.layout import ACCOUNT, AT_THE_END = 0.01
-"""Share of a range that counts as its end."""
-
-FITTED, HISTORY, PAGE, PICTURE, RUNS
+from clast.calibration.layout import ACCOUNT, FITTED, HISTORY, PAGE, PICTURE, RUNS
 from clast.calibration.proposal import misfit
 from clast.calibration.record import Grid, Record, write_record
 from clast.config.yaml_loader import dump_yaml
@@ -25,6 +22,9 @@ from clast.results.whole_file import whole_file
 from clast.studies.plots import STYLE
 from clast.studies.table import write_csv
 from clast.studies.work import DONE
+
+AT_THE_END = 0.01
+"""Share of a range that counts as its end."""
 
 
 def parameter_rows(fit: Fit) -> tuple[list[str], list[list[str]]]:
