@@ -72,7 +72,8 @@ class Fit:
     @property
     def scene(self) -> SceneConfig:
         """The scene with the parameters that were found."""
-        scene = changed(self.config, self.config.scene, self.config.set, ("set",))
+        named = {"name": self.config.calibration, **self.config.set}
+        scene = changed(self.config, self.config.scene, named, ("set",))
         return at_point(self.config, scene, self.point, "parameters")
 
     def settings(self, shares: Floats) -> Point:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import exp, gamma, isfinite, log, sqrt
 from typing import Any
 
@@ -26,12 +26,15 @@ class Setting:
         In SI; None where the value is no quantity.
     changes : mapping
         Key path in the scene -> value.
+    factors : mapping
+        Key path -> what its value is multiplied with.
     """
 
     axis: str
     label: str
     number: float | None
     changes: dict[str, Any]
+    factors: dict[str, float] = field(default_factory=dict)
 
 
 class Axis:
@@ -56,7 +59,7 @@ class Axis:
 
     def __init__(self, name: str, config: AxisConfig) -> None:
         self.name, self.config = name, config
-        keys = config.keys if config.keys is not None else (name,)
+        keys = config.keys if config.keys is not None else () if config.scales else (name,)
         self.factors = dict(keys) if isinstance(keys, dict) else dict.fromkeys(keys, 1.0)
         self._scaled = isinstance(keys, dict)
         if config.distribution is not None:
@@ -89,15 +92,17 @@ class Axis:
 
     def _written(self, label: str, value: Any) -> Setting:
         number = _number_of(value)
+        if self.config.scales and number is not None:
+            return self._number(number, label)
         if not self._scaled:
             return Setting(self.name, label, number, dict.fromkeys(self.factors, value))
         if number is None:
             raise ValueError(f"{value!r} is no number, so that it cannot be multiplied with the factors of 'keys'")
         return Setting(self.name, label, number, {key: factor * number for key, factor in self.factors.items()})
 
-    def _number(self, number: float) -> Setting:
+    def _number(self, number: float, label: str = "") -> Setting:
         changes = {key: factor * number if self._scaled else number for key, factor in self.factors.items()}
-        return Setting(self.name, f"{number:.6g}", number, changes)
+        return Setting(self.name, label or f"{number:.6g}", number, changes, dict.fromkeys(self.config.scales, number))
 
     def _between(self, share: float) -> float:
         (low, _), (high, _) = read_quantity(self.config.start), read_quantity(self.config.to)

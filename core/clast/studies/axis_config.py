@@ -22,6 +22,9 @@ class AxisConfig(Params):
             description="Keys that the value is given to, all alike or each times a factor; else the axis is the key"
         ),
     ] = None
+    scales: Annotated[
+        tuple[str, ...], Field(description="Keys whose value, as it is at the point, is multiplied by this one")
+    ] = ()
     values: Annotated[
         list[Any] | dict[str, Any] | None, Field(min_length=1, description="Values, or values by name")
     ] = None
@@ -51,4 +54,6 @@ class AxisConfig(Params):
             raise ValueError("a range needs 'from' and 'to'")
         if ways[2] and (self.mean is None or self.deviation is None):
             raise ValueError(f"distribution '{self.distribution}' needs 'mean' and 'deviation'")
+        if self.scales and self.keys is not None:
+            raise ValueError("'keys' are given the value, 'scales' are multiplied by it; give one of them")
         return self

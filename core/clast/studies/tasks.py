@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from clast.config.document import dotted
+from clast.config.quantities import read_quantity
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import ConfigError, KeyPath
@@ -72,10 +73,42 @@ def tasks(study: StudyConfig) -> list[Task]:
 
 
 def at_point(owner: Owner, scene: SceneConfig, point: Point, section: str) -> SceneConfig:
-    """Return a scene with the settings of a point, whose axes stand in a section of the file that asks for them."""
+    """Return a scene with the settings of a point, whose axes stand in a section of the file that asks for them.
+
+    All are set before any is checked: values may only make sense together.
+    """
+    try:
+        return scene.changed(_together(scene, point))
+    except (ConfigError, ValueError) as error:
+        raise owner.problem(_culprit(scene, point, section), str(error)) from None
+
+
+def _together(scene: SceneConfig, point: Point) -> dict[str, Any]:
+    """Return the changes of all settings, those that multiply after those that set."""
+    changes = {key: value for setting in point for key, value in setting.changes.items()}
     for setting in point:
-        scene = changed(owner, scene, setting.changes, (section, setting.axis))
-    return scene
+        for key, factor in setting.factors.items():
+            changes[key] = factor * _value_of(scene, changes, key)
+    return changes
+
+
+def _value_of(scene: SceneConfig, changes: Mapping[str, Any], key: str) -> float:
+    if key in changes:
+        return read_quantity(changes[key])[0]
+    path = tuple(key.split("."))
+    if not scene.document.has(path):
+        raise ValueError(f"the scene does not say {key!r}, so there is nothing to multiply")
+    return read_quantity(scene.document.get(path))[0]
+
+
+def _culprit(scene: SceneConfig, point: Point, section: str) -> KeyPath:
+    """Return the place of the first setting that fails by itself; that of all, where none does."""
+    for setting in point:
+        try:
+            scene.changed(_together(scene, (setting,)))
+        except (ConfigError, ValueError):
+            return (section, setting.axis)
+    return (section,)
 
 
 def repeated(scene: SceneConfig, variant: str, number: int, point: Point, repeats: int, grain: str) -> list[Task]:

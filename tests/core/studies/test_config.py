@@ -36,6 +36,8 @@ YIELD = "bonds.model.yield_stress"
         ({"set": {"time.end.strain": -1}}, "set: "),
         ({"variants": {"weak": {YIELD: "x"}}}, "variants.weak: "),
         ({"vary": {"m": {"keys": {YIELD: 2}, "values": ["soft"]}}}, "cannot be multiplied"),
+        ({"vary": {"m": {"scales": ["bonds.damping"], "values": [2]}}}, "nothing to multiply"),
+        ({"vary": {"m": {"scales": [YIELD], "keys": [YIELD], "values": [2]}}}, "give one of them"),
         ({"repeets": 2}, "did you mean 'repeats'?"),
         ({"grain": "any"}, "'per_repeat'"),
         ({"expect": [{"says": "x", "check": "grows"}]}, "needs a 'measure'"),
