@@ -30,7 +30,7 @@ class AxisConfig(Params):
     ] = None
     start: Annotated[Given | None, Field(alias="from", description="First value of a range")] = None
     to: Annotated[Given | None, Field(description="Last value of a range")] = None
-    points: Annotated[int | None, Field(ge=1, description="Values of a range, both ends included")] = None
+    points: Annotated[int | None, Field(ge=1, le=100_000, description="Values of a range, both ends included")] = None
     spacing: Annotated[Literal["linear", "log"], Field(description="How a range is divided")] = "linear"
     distribution: Annotated[
         Literal["normal", "lognormal", "weibull"] | None, Field(description="What values are drawn from")

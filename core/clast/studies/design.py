@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,9 @@ from clast.studies.axis import Axis, Setting
 from clast.studies.config import SPACE_FILLING, StudyConfig
 
 Point = tuple[Setting, ...]
+
+MOST = 100_000
+"""Runs of a study; each is a folder and some memory."""
 
 
 def axes(study: StudyConfig) -> list[Axis]:
@@ -43,6 +47,7 @@ def points(study: StudyConfig) -> list[Point]:
         As :func:`axes`; and axes of different lengths side by side.
     """
     found = axes(study)
+    _refuse_too_many(study, found)
     if study.design == "grid":
         return list(product(*(axis.settings for axis in found)))
     if study.design == "together":
@@ -53,6 +58,15 @@ def points(study: StudyConfig) -> list[Point]:
         return list(zip(*(axis.settings for axis in found), strict=True)) or [()]
     shares = quantiles(study.design, study.points or 1, len(found), study.seed)
     return [tuple(axis.at(float(share)) for axis, share in zip(found, row, strict=True)) for row in shares]
+
+
+def _refuse_too_many(study: StudyConfig, found: list[Axis]) -> None:
+    lengths = [len(axis.settings) for axis in found]
+    count = study.points or (prod(lengths) if study.design == "grid" else max(lengths, default=1))
+    runs = count * study.repeats * len(study.variant_changes)
+    if runs > MOST:
+        told = f"{runs:,} runs, where a study may have {MOST:,}"
+        raise study.problem(("vary",), f"{told}; take fewer values or repeats, or points that fill the space")
 
 
 def quantiles(design: str, count: int, dimensions: int, seed: int) -> NDArray[np.float64]:

@@ -38,6 +38,15 @@ YIELD = "bonds.model.yield_stress"
         ({"vary": {"m": {"keys": {YIELD: 2}, "values": ["soft"]}}}, "cannot be multiplied"),
         ({"vary": {"m": {"scales": ["bonds.damping"], "values": [2]}}}, "nothing to multiply"),
         ({"vary": {"m": {"scales": [YIELD], "keys": [YIELD], "values": [2]}}}, "give one of them"),
+        (
+            {
+                "vary": {
+                    YIELD: {"from": 1, "to": 2, "points": 400},
+                    "bonds.damping": {"from": 0, "to": 1, "points": 400},
+                }
+            },
+            "160,000 runs, where a study may have 100,000",
+        ),
         ({"repeets": 2}, "did you mean 'repeats'?"),
         ({"grain": "any"}, "'per_repeat'"),
         ({"expect": [{"says": "x", "check": "grows"}]}, "needs a 'measure'"),
