@@ -12,6 +12,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
 from numpy.typing import NDArray
 
 from clast.results.whole_file import whole_file
@@ -114,6 +115,8 @@ def draw_weibull(table: Table, path: Path) -> bool:
             _draw_sample(axis, variant, np.sort(sample), colour)
         axis.set(xlabel="crushing force, N", ylabel="ln(-ln(1 - P))", xscale="log")
         axis.legend(loc="upper left")
+        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.xaxis.set_minor_formatter(StrMethodFormatter("{x:g}"))
         with whole_file(path) as draft:
             figure.savefig(draft, format="png", dpi=110, metadata={"Software": None})
     return True

@@ -9,7 +9,7 @@ from pathlib import Path
 from clast.studies import layout
 from clast.studies.config import StudyConfig
 from clast.studies.statistics import statistic, values_of, write_statistics
-from clast.studies.table import Table, gather, write_csv, write_hdf5
+from clast.studies.table import Row, Table, gather, write_csv, write_hdf5
 from clast.studies.tasks import Task
 from clast.studies.verdict import Verdict, judge, write_verdicts
 from clast.studies.work import Result
@@ -22,6 +22,9 @@ COLUMNS = {
     "broken_at_end": ("broken at end %", 100.0, 0),
 }
 """What the table of points shows: head, factor, decimals."""
+
+MOST_LINES = 32
+"""Points of a variant that a table shows one by one."""
 
 
 @dataclass(frozen=True)
@@ -40,11 +43,18 @@ class StudyOutcome:
         heads = [*filter(None, some), *self.table.axes, "runs", *(COLUMNS[name][0] for name in shown)]
         rows = []
         for variant in self.table.variants:
-            for _, runs in self.table.points(variant):
-                labels = [setting.label for setting in runs[0].task.settings]
+            for labels, runs in self._lines(variant):
                 cells = [_cell(values_of(runs, name), *COLUMNS[name][1:]) for name in shown]
                 rows.append([*([variant] if some[0] else []), *labels, str(len(runs)), *cells])
         return heads, rows
+
+    def _lines(self, variant: str) -> list[tuple[list[str], list[Row]]]:
+        """Return labels and runs of every line of the table: the points, or all of them where there are too many."""
+        points = list(self.table.points(variant))
+        if len(points) <= MOST_LINES:
+            return [([setting.label for setting in runs[0].task.settings], runs) for _, runs in points]
+        every = [row for _, runs in points for row in runs]
+        return [(["all" for _ in self.table.axes], every)]
 
     def told(self) -> str:
         """Return how many runs ended how."""

@@ -32,6 +32,9 @@ SHOWN = {
 }
 """Measures that are drawn, with what stands at their axis and its factor."""
 
+LONG = 30
+"""Characters of a label that leave no room for another beside it."""
+
 MOST = 12
 """Curves of points that a legend can name."""
 
@@ -87,9 +90,12 @@ def _draw_variant(axis: Any, points: Sequence[tuple[int, list[Row]]], scene: Sce
             label=each.label,
         )
     axis.set(xlim=(0.0, None), ylim=(0.0, None))
-    if axis.get_legend_handles_labels()[0]:
+    labels = axis.get_legend_handles_labels()[1]
+    if labels:
         names = ", ".join(setting.axis for setting in points[0][1][0].task.settings)
-        axis.legend(title=names or None, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3)
+        columns = 3 if max(map(len, labels)) <= LONG else 1
+        title = names if names and len(points) <= MOST else None
+        axis.legend(title=title, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=columns)
 
 
 def _draw_mean(axis: Any, rows: Sequence[Row]) -> None:
