@@ -38,6 +38,8 @@ def sweep(
     from clast.studies.config import load_study
     from clast.studies.prepare import prepare
 
+    if scheduler is not None and executor != "dask":
+        raise click.UsageError("--scheduler belongs to --executor dask")
     study = load_study(file, overrides)
     folder = output or Path("runs") / study.study
     if way == "prepare":

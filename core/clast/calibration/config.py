@@ -14,7 +14,7 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from clast.config.document import Document, Problem
 from clast.config.names import FolderName
 from clast.config.problems import located
-from clast.config.quantities import Number, read_quantity
+from clast.config.quantities import Number, read_quantity, to_si
 from clast.config.scene import SceneConfig, load
 from clast.config.yaml_loader import read_document
 from clast.errors import ConfigError, KeyPath
@@ -22,7 +22,10 @@ from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
 from clast.studies.axis_config import AxisConfig, Given
 from clast.studies.config import Changes
-from clast.studies.measures import FROM_SUMMARY, MEASURES
+from clast.studies.measures import FROM_SUMMARY, MEASURES, unit_of
+
+LEAST_POINTS = 3
+"""Points without which nothing can be fitted."""
 
 CURVE = "curve"
 """Name of the target that is a whole stress-strain curve."""
@@ -86,7 +89,7 @@ class CalibrationConfig(Params):
     @property
     def first_points(self) -> int:
         """How many of them fill the space."""
-        return max(2, round(self.first * self.points))
+        return max(LEAST_POINTS, round(self.first * self.points))
 
     def problem(self, path: KeyPath, text: str) -> ConfigError:
         """Error for the caller to raise, with its place in the file in front."""
@@ -127,6 +130,10 @@ def load_calibration(path: str | Path, overrides: Iterable[str] = ()) -> Calibra
     """
     document = read_document(path)
     data: dict[str, Any] = dict(document.data)
+    if "targets" not in data and data.keys() & {"materials", "vary"}:
+        raise ConfigError(
+            f"{path}: this is a scene or a study, not a calibration, which has 'parameters' and 'targets'"
+        )
     data.setdefault("calibration", Path(document.name).stem)
     try:
         found = CalibrationConfig.model_validate(data)
@@ -145,11 +152,20 @@ def load_calibration(path: str | Path, overrides: Iterable[str] = ()) -> Calibra
     return found
 
 
+def _backwards(axis: AxisConfig) -> bool:
+    try:
+        return read_quantity(axis.start)[0] >= read_quantity(axis.to)[0]
+    except ValueError:
+        return False  # is told when the axis is made
+
+
 def _problems(config: CalibrationConfig) -> Iterable[Problem]:
     known = [CURVE, *MEASURES, *FROM_SUMMARY]
     for name, axis in config.parameters.items():
         if axis.start is None:
             yield Problem(("parameters", name), "a parameter needs bounds: 'from' and 'to'")
+        elif _backwards(axis):
+            yield Problem(("parameters", name), f"'from' ({axis.start}) must be below 'to' ({axis.to})")
     for name, target in config.targets.items():
         if name not in known:
             yield Problem(("targets", name), f"{name!r} is no measure; {suggestion(name, known)}")
@@ -160,7 +176,7 @@ def _problems(config: CalibrationConfig) -> Iterable[Problem]:
         for key in ("value", "scatter"):
             given = getattr(target, key)
             try:
-                if given is not None and read_quantity(given)[0] == 0.0:
+                if given is not None and to_si(given, unit_of(name)) == 0.0:
                     yield Problem(("targets", name, key), "must not be 0: 'within' is a share of it")
             except ValueError as error:
                 yield Problem(("targets", name, key), str(error))

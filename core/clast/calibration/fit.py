@@ -16,6 +16,7 @@ from clast.calibration.proposal import misfit, next_point, optimum
 from clast.calibration.responses import Goal, Response, goals, respond
 from clast.calibration.surrogate import Surrogate, fit
 from clast.config.scene import SceneConfig
+from clast.errors import ConfigError
 from clast.studies.axis import Axis
 from clast.studies.conduct import Audience, conduct, states
 from clast.studies.config import QUIET
@@ -140,7 +141,11 @@ class Fitting:
             yield choose(self._surrogate(), np.array(self.shares), self.config.seed + len(self.shares))
 
     def _surrogate(self) -> Surrogate:
-        return fit(np.array(self.shares), self._responses(), self.goals)
+        try:
+            return fit(np.array(self.shares), self._responses(), self.goals)
+        except ConfigError as error:
+            reasons = [row.reason for rows in self.rows for row in rows if row.reason]
+            raise ConfigError(f"{error}; runs fail: {reasons[0]}" if reasons else str(error)) from None
 
     def _responses(self) -> list[list[Response]]:
         return [[respond(self.config, goal, rows) for goal in self.goals] for rows in self.rows]
@@ -154,7 +159,7 @@ class Fitting:
             scene = at_point(config, self.scene, point, "parameters")
             tasks += repeated(scene, "", number, point, config.repeats, config.grain)
             self.shares.append(np.asarray(share))
-        settle(self.folder, config.document, tasks, ASKED)
+        settle(self.folder, config.document, config.calibration, tasks, ASKED)
         names = [task.name for task in tasks]
         results = conduct(self.folder, names, self.workers, self.audience)
         rows = gather(self.folder, tasks, states(self.folder, names, results)).rows

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from clast.calibration.config import CURVE, CalibrationConfig
-from clast.config.quantities import read_quantity
+from clast.config.quantities import to_si
+from clast.studies.measures import unit_of
 from clast.studies.statistics import statistic, values_of
 from clast.studies.table import Row, curves
 
@@ -53,10 +54,10 @@ def goals(config: CalibrationConfig) -> list[Goal]:
     found = []
     for measure, target in config.targets.items():
         if target.value is not None:
-            value = read_quantity(target.value)[0]
+            value = to_si(target.value, unit_of(measure))
             found.append(Goal(measure, measure, False, value, target.within * abs(value)))
         if target.scatter is not None:
-            value = read_quantity(target.scatter)[0]
+            value = to_si(target.scatter, unit_of(measure))
             found.append(Goal(f"scatter of {measure}", measure, True, value, target.scatter_within * abs(value)))
         if target.file is not None:
             found.append(Goal("distance from the curve", CURVE, False, 0.0, target.within))

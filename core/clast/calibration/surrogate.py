@@ -10,12 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.calibration.config import LEAST_POINTS
 from clast.calibration.responses import Goal, Response
 from clast.errors import ConfigError
 
 Floats = NDArray[np.float64]
 LEAST_NOISE = 1e-3
-"""Smallest standard error, as a share of a goal's scale: two runs never differ by less than rounding does."""
+"""Smallest standard error, as a share of the residuals: two runs never differ by less than rounding does."""
+
+SMOOTH = (0.3, 20.0)
+"""Lengths over which a target may change its trend, as shares of a parameter's range: some points lie within each."""
 
 
 @dataclass(frozen=True)
@@ -25,17 +29,21 @@ class Surrogate:
     Attributes
     ----------
     processes : list
-        One fitted ``GaussianProcessRegressor`` a goal, of (response - value)/scale.
+        One fitted ``GaussianProcessRegressor`` a goal, of (response - value)/scale/size.
+    sizes : list of float
+        How large the residuals of each goal are.
     """
 
     processes: Sequence[Any]
+    sizes: Sequence[float]
 
     def predict(self, x: Floats) -> tuple[Floats, Floats]:
         """Return means and deviations of all goals' residuals at (n, d) points: (n, goals) each."""
         told = [process.predict(x, return_std=True) for process in self.processes]
-        return np.column_stack([mean for mean, _ in told]), np.column_stack([sd for _, sd in told])
+        mean = np.column_stack([size * mean for (mean, _), size in zip(told, self.sizes, strict=True)])
+        return mean, np.column_stack([size * sd for (_, sd), size in zip(told, self.sizes, strict=True)])
 
-    def slopes(self, x: Floats, step: float = 0.02) -> Floats:
+    def slopes(self, x: Floats, step: float = 0.1) -> Floats:
         """Return the slopes of all residuals at one point over the whole range of each parameter: (goals, d)."""
         columns = []
         for axis in range(len(x)):
@@ -64,25 +72,31 @@ def fit(points: Floats, responses: Sequence[Sequence[Response]], goals: Sequence
     try:
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.gaussian_process import GaussianProcessRegressor
-        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct
+        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
     except ImportError:
         raise ConfigError("clast calibrate needs scikit-learn: pip install 'clast[calibrate]'") from None
-    processes = []
+    processes, sizes = [], []
     for k, goal in enumerate(goals):
         told = np.array([(each[k].value, each[k].error) for each in responses])
         known = np.isfinite(told).all(axis=1)
-        if known.sum() < 3:
-            raise ConfigError(
-                f"only {known.sum()} points have a result for {goal.name}; see why runs failed in runs.csv"
-            )
+        if known.sum() < LEAST_POINTS:
+            raise ConfigError(f"only {known.sum()} points have a result for {goal.name}")
         residual, noise = (told[known, 0] - goal.value) / goal.scale, told[known, 1] / goal.scale
-        pooled = max(float(np.sqrt(np.mean(noise**2))), LEAST_NOISE)  # one point's few repeats tell little of its own
-        spread = max(float(residual.std()), 0.1)
-        size = ConstantKernel(spread**2, (1e-2 * spread**2, 1e3 * spread**2))
-        kernel = size * RBF(np.full(points.shape[1], 0.5), (0.1, 20.0)) + size * DotProduct(1.0, (1e-2, 1e2))
-        process = GaussianProcessRegressor(kernel, alpha=pooled**2, n_restarts_optimizer=2, random_state=0)
+        sizes.append(max(float(np.abs(residual).max()), LEAST_NOISE))
+        pooled = float(np.sqrt(np.mean(noise**2))) / sizes[-1]  # one point's few repeats tell little of its own
+        kernel = ConstantKernel(1.0, (1e-2, 1e3)) * RBF(np.full(points.shape[1], 0.5), SMOOTH)
+        kernel += ConstantKernel(1.0, (1e-2, 1e3)) * DotProduct(1.0, (1e-2, 1e2))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its bound: a parameter that does nothing
-            process.fit(points[known], residual)
-        processes.append(process)
-    return Surrogate(processes)
+            if pooled == 0.0:  # no repeats: the points themselves have to tell
+                guess = GaussianProcessRegressor(kernel + WhiteKernel(1e-2, (1e-8, 1.0)), n_restarts_optimizer=2)
+                pooled = _noise_in(guess.set_params(random_state=0).fit(points[known], residual / sizes[-1]))
+            variance = max(pooled, LEAST_NOISE) ** 2
+            process = GaussianProcessRegressor(kernel, alpha=variance, n_restarts_optimizer=2, random_state=0)
+            processes.append(process.fit(points[known], residual / sizes[-1]))
+    return Surrogate(processes, sizes)
+
+
+def _noise_in(process: Any) -> float:
+    """Return the deviation of the noise that a process was fitted with."""
+    return float(np.sqrt(process.kernel_.k2.noise_level))

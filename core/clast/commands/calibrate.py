@@ -12,6 +12,7 @@ from clast.calibration import account
 from clast.calibration.config import CalibrationConfig
 from clast.calibration.fit import Fit, Fitting
 from clast.commands.sweep import console_audience
+from clast.results.run_folder import locked
 from clast.studies.executors import Maker, Workers
 
 
@@ -30,7 +31,8 @@ def calibrate(config: CalibrationConfig, folder: Path, maker: Maker) -> Fit:
     ClastError
         With a message for the user.
     """
-    with console_audience() as audience, Workers(maker) as workers:
+    folder.mkdir(parents=True, exist_ok=True)
+    with locked(folder, "calibration"), console_audience() as audience, Workers(maker) as workers:
         audience.expect(config.points * config.repeats)
         found = Fitting(config, folder, workers, audience).fit()
     print_fit(found)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from clast.forecast import duration
+from clast.results.run_folder import locked
 from clast.studies import layout
 from clast.studies.conduct import Audience, conduct, states
 from clast.studies.config import StudyConfig
@@ -46,11 +47,14 @@ def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome
     results: dict[str, Result] = {}
     try:
         if maker is not None:
-            with console_audience() as audience, Workers(maker) as workers:
+            with locked(folder, "study"), console_audience() as audience, Workers(maker) as workers:
                 results = conduct(folder, names, workers, audience)
                 audience.close(maker.workers)
     finally:
         outcome = conclude(study, folder, found, states(folder, names, results))
+    for row in failures(outcome):
+        if row.task.name not in results:  # what failed just now was told at once
+            print(f"failed: {row.task.name}: {row.reason}")
     return outcome
 
 

@@ -110,6 +110,15 @@ def describe_dimension(dimension: Dimension) -> str:
     return "of the unit " + " ".join(f"{name}^{power}" for name, power in powers if power)
 
 
+def si_unit(dimension: Dimension) -> str:
+    """Return the unit in SI of a dimension, as it can be read again; empty for plain numbers.
+
+    >>> si_unit((-1, 1, -2, 0)), unit_factor(si_unit((-1, 1, -2, 0)))
+    ('m-1 kg1 s-2', (Decimal('1.000'), (-1, 1, -2, 0)))
+    """
+    return " ".join(f"{name}{power}" for name, power in zip(("m", "kg", "s", "rad"), dimension, strict=True) if power)
+
+
 def examples(unit: str) -> str:
     """One example of how to write a quantity of this unit's dimension; empty where none is known."""
     return _NAMES.get(unit_factor(unit)[1], ("", ""))[1]

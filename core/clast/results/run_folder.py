@@ -31,7 +31,7 @@ def run_folder(folder: Path, resume: bool) -> Iterator[bool]:
         raise RunError(f"{folder}: no run to resume here; name its folder with -o, or run without --resume")
     _make(folder)
     try:
-        with _locked(folder):
+        with locked(folder):
             yield _goes_on(folder, resume)
     finally:
         if made:
@@ -66,15 +66,22 @@ def _make(folder: Path) -> None:
 
 
 @contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Lock a folder; where its file system knows no locks, do without."""
+def locked(folder: Path, what: str = "run") -> Iterator[None]:
+    """Lock a folder; where its file system knows no locks, do without.
+
+    Raises
+    ------
+    RunError
+        If another one holds it.
+    """
     handle = os.open(folder, os.O_RDONLY)
     try:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise RunError(
-                f"{folder}: another run is writing into it; wait until it has ended, or choose another folder with -o"
+                f"{folder}: another {what} is writing into it; wait until it has ended, "
+                "or choose another folder with -o"
             ) from error
         except OSError:
             pass

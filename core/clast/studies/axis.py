@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from clast.config.quantities import read_quantity
+from clast.config.units import Dimension, si_unit
 from clast.maths.distributions import weibull_deviation
 from clast.studies.axis_config import AxisConfig
 
@@ -59,6 +60,7 @@ class Axis:
 
     def __init__(self, name: str, config: AxisConfig) -> None:
         self.name, self.config = name, config
+        self.dimension = _dimension(config)
         keys = config.keys if config.keys is not None else () if config.scales else (name,)
         self.factors = dict(keys) if isinstance(keys, dict) else dict.fromkeys(keys, 1.0)
         self._scaled = isinstance(keys, dict)
@@ -101,7 +103,8 @@ class Axis:
         return Setting(self.name, label, number, {key: factor * number for key, factor in self.factors.items()})
 
     def _number(self, number: float, label: str = "") -> Setting:
-        changes = {key: factor * number if self._scaled else number for key, factor in self.factors.items()}
+        unit = "" if self.dimension is None else si_unit(self.dimension)
+        changes = {key: _with_unit(factor * number, unit) for key, factor in self.factors.items()}
         return Setting(self.name, label or f"{number:.6g}", number, changes, dict.fromkeys(self.config.scales, number))
 
     def _between(self, share: float) -> float:
@@ -154,6 +157,24 @@ class Axis:
         mean, deviation = self._moments()
         if deviation <= 0.0 or (mean <= 0.0 and self.config.distribution != "normal"):
             raise ValueError(f"a {self.config.distribution} distribution needs a deviation and a mean above 0")
+
+
+def _dimension(config: AxisConfig) -> Dimension | None:
+    """Return the dimension of what a user wrote for an axis; None for bare numbers, and for what is no number."""
+    values = config.values.values() if isinstance(config.values, dict) else config.values or ()
+    for given in (config.start, config.to, config.mean, *values):
+        try:
+            dimension = read_quantity(given)[1] if given is not None else None
+        except ValueError:
+            continue
+        if dimension is not None:
+            return dimension
+    return None
+
+
+def _with_unit(number: float, unit: str) -> float | str:
+    """Return a number in SI as the scene reads it, so that its dimension is checked there."""
+    return f"{number!r} {unit}" if unit else number
 
 
 def weibull_modulus(share: float) -> float:

@@ -11,6 +11,7 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from clast.config.document import Document, Problem
 from clast.config.names import FolderName, Key
 from clast.config.problems import located
+from clast.config.quantities import to_si
 from clast.config.scene import SceneConfig, load
 from clast.config.yaml_loader import read_document
 from clast.errors import ConfigError, KeyPath
@@ -18,7 +19,7 @@ from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
 from clast.studies.axis_config import AxisConfig
 from clast.studies.expectation_config import CURVES, Expectation
-from clast.studies.measures import FROM_SUMMARY, MEASURES
+from clast.studies.measures import FROM_SUMMARY, MEASURES, unit_of
 
 Changes = Annotated[dict[str, Any], Field(description="Key path in the scene -> value, as --set would have them")]
 SPACE_FILLING = ("latin_hypercube", "sobol", "random")
@@ -106,6 +107,8 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> StudyConfig:
     """
     document = read_document(path)
     data = dict(document.data)
+    if "materials" in data and "base" not in data:
+        raise ConfigError(f"{path}: this is a scene, not a study of one; run it with 'clast run {path}'")
     data.setdefault("study", Path(document.name).stem)
     try:
         study = StudyConfig.model_validate(data)
@@ -119,6 +122,11 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> StudyConfig:
     if not base.is_file():
         raise study.problem(("base",), f"{study.base!r}: no such file; the path starts at the study's folder")
     study._scene = load(base, overrides)
+    if study._scene.compression is None:
+        for k, each in enumerate(study.expect):
+            if each.measure not in FROM_SUMMARY:
+                text = f"{study.base!r} has no 'compression', so there is no {each.measure}"
+                raise study.problem(("expect", k, "measure"), text)
     return study
 
 
@@ -135,6 +143,11 @@ def _unknown_names(study: StudyConfig) -> Iterator[Problem]:
             if variant not in study.variants:
                 text = f"there is no variant {variant!r}; {suggestion(variant, study.variants)}"
                 yield Problem(("expect", k, "variants"), text)
+        if each.value is not None and each.measure in measures:
+            try:
+                to_si(each.value, unit_of(each.measure))
+            except ValueError as error:
+                yield Problem(("expect", k, "value"), str(error))
         if each.measure not in measures:
             text = f"{each.measure!r} is no measure; {suggestion(each.measure, measures)}"
             yield Problem(("expect", k, "measure"), text)

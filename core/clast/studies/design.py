@@ -8,8 +8,10 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.errors import ConfigError
 from clast.studies.axis import Axis, Setting
 from clast.studies.config import SPACE_FILLING, StudyConfig
+from clast.studies.selection import problems
 
 Point = tuple[Setting, ...]
 
@@ -35,6 +37,9 @@ def axes(study: StudyConfig) -> list[Axis]:
             what = "a distribution" if config.distribution else "a range without 'points'"
             raise study.problem(("vary", name), f"{what} needs a design that draws: {', '.join(SPACE_FILLING)}")
         found.append(axis)
+    wrong = list(problems(study.expect, found))
+    if wrong:
+        raise ConfigError(study.document.report(wrong))
     return found
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor
 from multiprocessing import get_context
@@ -63,9 +65,17 @@ def local(workers: int | None = None) -> Maker:
 
 
 def _begin() -> None:
-    """Prepare a worker: one thread, and Ctrl-C left to the process that leads."""
+    """Prepare a worker: one thread, Ctrl-C left to the process that leads, and an end when that is gone."""
     os.environ.update(ALONE)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_leave_with, args=(os.getppid(),), daemon=True).start()
+
+
+def _leave_with(parent: int) -> None:
+    """End this process when its parent has ended, however: the run goes on from its checkpoint another time."""
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(1)
 
 
 def dask(scheduler: str | None, workers: int | None = None) -> Maker:

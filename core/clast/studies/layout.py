@@ -9,6 +9,9 @@ RUNS = "runs.csv"
 STATISTICS = "statistics.csv"
 VERDICTS = "verdicts.csv"
 ENSEMBLE = "ensemble.csv"
+SOMETIMES = (VERDICTS, ENSEMBLE, "curves.png", "measures.png", "weibull.png")
+"""What not every study leaves, and none may leave to the next."""
+
 TABLE = "table.h5"
 LIST = "tasks.txt"
 STOP = "stop"

@@ -67,7 +67,7 @@ def largest_drop(curve: Curve) -> float | None:
         return None
     window = max(1, int(np.searchsorted(curve.strain, curve.strain[0] + WINDOW)))
     falls = [(curve.stress[:-k] - curve.stress[k:]).max() for k in range(1, min(window, len(curve.stress) - 1) + 1)]
-    return float(max(falls) / top)
+    return float(max(0.0, *falls) / top)
 
 
 def drops(curve: Curve) -> float:
@@ -110,6 +110,19 @@ MEASURES: dict[str, Callable[[Curve], float | None]] = {
     "work_J_per_m3": lambda curve: float(np.trapezoid(curve.stress, curve.strain)),
 }
 """By name: of the stress-strain curve of one run, in SI; docs/studies.md tells what each is."""
+
+
+UNITS = {"_J_per_m3": "J/m3", "_Pa": "Pa", "_N": "N", "_s": "s"}
+"""By the end of a measure's name; what ends otherwise is a plain number."""
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a measure in SI.
+
+    >>> unit_of("peak_stress_Pa"), unit_of("strain_at_peak")
+    ('Pa', '1')
+    """
+    return next((unit for end, unit in UNITS.items() if name.endswith(end)), "1")
 
 
 def measure(folder: Path) -> tuple[dict[str, float | None], Curve | None]:

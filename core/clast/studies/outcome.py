@@ -60,7 +60,9 @@ class StudyOutcome:
         """Return how many runs ended how."""
         states = [row.state for row in self.table.rows]
         counts = {state: states.count(state) for state in dict.fromkeys(states)}
-        return f"{len(states)} runs: " + ", ".join(f"{count} {state}" for state, count in counts.items())
+        told = f"{len(states)} runs: " + ", ".join(f"{count} {state}" for state, count in counts.items())
+        same = len(states) - len({(row.task.variant, row.task.point, row.task.name) for row in self.table.rows})
+        return told + (f"; {same} are repeats that draw no other numbers, and count as the same run" if same else "")
 
 
 def _cell(sample: Sequence[float], factor: float, decimals: int) -> str:
@@ -76,6 +78,8 @@ def conclude(study: StudyConfig, folder: Path, tasks: Sequence[Task], states: Ma
     from clast.studies.ensemble import draw_weibull, write_ensemble
     from clast.studies.plots import draw_curves, draw_measures
 
+    for name in layout.SOMETIMES:
+        (folder / name).unlink(missing_ok=True)
     table = gather(folder, tasks, states)
     verdicts = judge(table, study.expect)
     written = [folder / layout.RUNS, folder / layout.TABLE, folder / layout.STATISTICS]

@@ -8,6 +8,7 @@ from pathlib import Path
 from clast.config.document import Document
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import RunError
+from clast.results.reading import read_yaml
 from clast.results.whole_file import whole_file
 from clast.studies import layout
 from clast.studies.config import StudyConfig
@@ -25,13 +26,13 @@ def prepare(study: StudyConfig, folder: Path) -> list[Task]:
         If the folder holds something else.
     """
     found = tasks(study)
-    settle(folder, study.document, found)
+    settle(folder, study.document, study.study, found)
     with whole_file(folder / layout.LIST) as draft:
         draft.write_text("".join(f"{name}\n" for name in dict.fromkeys(task.name for task in found)), encoding="utf-8")
     return found
 
 
-def settle(folder: Path, document: Document, found: Sequence[Task], name: str = layout.STUDY) -> None:
+def settle(folder: Path, document: Document, title: str, found: Sequence[Task], name: str = layout.STUDY) -> None:
     """Make the folder of some runs, with the file that asks for them and their scenes.
 
     Raises
@@ -41,10 +42,14 @@ def settle(folder: Path, document: Document, found: Sequence[Task], name: str = 
     """
     if folder.is_dir() and any(folder.iterdir()) and not (folder / name).exists():
         raise RunError(f"{folder}: holds something else; choose another folder with -o")
+    key = Path(name).stem
+    before = read_yaml(folder / name).get(key, title)
+    if before != title:
+        raise RunError(f"{folder}: holds the {key} {before!r}; choose another folder for {title!r} with -o")
     (folder / "runs").mkdir(parents=True, exist_ok=True)
     (folder / "scenes").mkdir(exist_ok=True)
     with whole_file(folder / name) as draft:
-        draft.write_text(dump_yaml(document.data), encoding="utf-8")
+        draft.write_text(dump_yaml({key: title, **document.data}), encoding="utf-8")
     for task in {task.name: task for task in found}.values():
         file = layout.scene_of(folder, task.name)
         if not file.exists():

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from clast.errors import ClastError
 from clast.results.whole_file import whole_file
+from clast.studies.axis import Setting
 from clast.studies.layout import run_of
 from clast.studies.measures import Curve, measure
 from clast.studies.tasks import Task
@@ -41,9 +42,13 @@ class Row:
     measures: Mapping[str, float | None] = field(default_factory=dict)
     curve: Curve | None = None
 
+    def setting(self, axis: str) -> Setting:
+        """Return the setting of an axis."""
+        return next(each for each in self.task.settings if each.axis == axis)
+
     def value(self, axis: str) -> float | str:
         """Return the value on an axis: in SI, or its label where it is no number."""
-        setting = next(each for each in self.task.settings if each.axis == axis)
+        setting = self.setting(axis)
         return setting.label if setting.number is None else setting.number
 
 
@@ -71,8 +76,9 @@ class Table:
         return list(dict.fromkeys(row.task.variant for row in self.rows))
 
     def done(self, variant: str | None = None) -> list[Row]:
-        """Return the runs that have results, of one variant or all."""
-        return [row for row in self.rows if row.measures and variant in (None, row.task.variant)]
+        """Return the runs that have results, of one variant or all; repeats that are the same run count once."""
+        found = [row for row in self.rows if row.measures and variant in (None, row.task.variant)]
+        return list({(row.task.variant, row.task.point, row.task.name): row for row in found}.values())
 
     def points(self, variant: str) -> Iterator[tuple[int, list[Row]]]:
         """Return the points of a variant with their finished runs."""

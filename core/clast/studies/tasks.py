@@ -14,7 +14,7 @@ from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import ConfigError, KeyPath
 from clast.studies.config import QUIET, StudyConfig
-from clast.studies.design import Point, points
+from clast.studies.design import Point, axes, points
 
 LONGEST = 48
 """Characters of a run's name that tell its values."""
@@ -63,13 +63,21 @@ def tasks(study: StudyConfig) -> list[Task]:
     """
     found = []
     for variant, own in study.variant_changes.items():
-        scene = changed(
-            study, study.scene, {**QUIET, **study.set, **own}, ("variants", variant) if variant else ("set",)
-        )
+        place = ("variants", variant) if variant else ("set",)
+        _refuse_what_is_varied(study, own, place)
+        scene = changed(study, study.scene, {**QUIET, **study.set, **own}, place)
         for number, point in enumerate(points(study)):
             here = at_point(study, scene, point, "vary")
             found += repeated(here, variant, number, point, study.repeats, study.grain)
     return found
+
+
+def _refuse_what_is_varied(study: StudyConfig, changes: Mapping[str, Any], place: KeyPath) -> None:
+    """Refuse a variant that changes what the axes set anyway: it would be no variant."""
+    for axis in axes(study):
+        for key in axis.factors:
+            if key in changes:
+                raise study.problem((*place, key), f"axis {axis.name!r} sets this key at every point; leave out one")
 
 
 def at_point(owner: Owner, scene: SceneConfig, point: Point, section: str) -> SceneConfig:

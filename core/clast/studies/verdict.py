@@ -5,16 +5,17 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isclose
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.config.quantities import read_quantity
+from clast.config.quantities import to_si
 from clast.results.whole_file import whole_file
-from clast.studies.expectation_config import CURVES, Expectation, Range, Selection
+from clast.studies.expectation_config import CURVES, Expectation, Selection
+from clast.studies.measures import unit_of
+from clast.studies.selection import meets
 from clast.studies.statistics import deviation_interval, statistic, values_of
 from clast.studies.table import Row, Table, curves
 
@@ -49,29 +50,8 @@ def judge(table: Table, expectations: Sequence[Expectation]) -> list[Verdict]:
 
 
 def chosen(rows: Sequence[Row], selection: Selection) -> list[Row]:
-    """Return the runs whose values are selected."""
-    return [row for row in rows if all(_meets(row.value(axis), wanted) for axis, wanted in selection.items())]
-
-
-def _meets(value: float | str, wanted: Range | float | str) -> bool:
-    if isinstance(wanted, Range):
-        if isinstance(value, str):
-            return False
-        bounds = {name: read_quantity(each)[0] for name, each in wanted.model_dump(exclude_none=True).items()}
-        tests = {
-            "at_least": lambda bound: value >= bound or _near(value, bound),
-            "at_most": lambda bound: value <= bound or _near(value, bound),
-            "above": lambda bound: value > bound and not _near(value, bound),
-            "below": lambda bound: value < bound and not _near(value, bound),
-        }
-        return all(tests[name](bound) for name, bound in bounds.items())
-    if isinstance(value, str):
-        return value == str(wanted)
-    return _near(value, read_quantity(wanted)[0])
-
-
-def _near(a: float, b: float) -> bool:
-    return isclose(a, b, rel_tol=1e-9, abs_tol=1e-15)
+    """Return the runs whose settings are selected."""
+    return [row for row in rows if all(meets(row.setting(axis), wanted) for axis, wanted in selection.items())]
 
 
 def trend(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[str, str]:
@@ -184,7 +164,7 @@ def equals(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple
     sample = values_of(rows, expectation.measure)
     if not sample or (expectation.of == "deviation" and len(sample) < 3):
         return OPEN, "too few runs have results"
-    value = read_quantity(expectation.value)[0]
+    value = to_si(expectation.value, unit_of(expectation.measure))
     margin, found = expectation.within * abs(value), statistic(sample)
     got, low, high = found.mean, found.low, found.high
     if expectation.of == "deviation":

@@ -132,6 +132,8 @@ def test_an_optimum_at_the_end_of_a_range_is_said_to_be(tmp_path: Path) -> None:
         ({"targets": {"peak_forse_N": {"value": 1}}}, "did you mean 'peak_force_N'?"),
         ({"targets": {"peak_force_N": {"value": "3 parsec"}}}, "parsec"),
         ({"targets": {"peak_force_N": {"value": 0}}}, "must not be 0"),
+        ({"targets": {"peak_force_N": {"value": "2 mm"}}}, "is a length; a force is needed"),
+        ({"targets": {"drops": {"value": 1}}, "parameters": {GLASS: {"from": 2, "to": 1}}}, "must be below 'to'"),
         ({"targets": {"peak_force_N": {"scatter": 1}}}, "scatter of peak_force_N cannot be told from 1 runs"),
         ({"targets": {"curve": {"value": 1}}}, "'curve' needs it"),
         ({"targets": {"curve": {"file": "none.csv"}}}, "'none.csv' cannot be read"),
@@ -153,7 +155,7 @@ def test_runs_that_all_fail_end_in_a_sentence(tmp_path: Path) -> None:
     file = calibration_file(tmp_path, targets={"peak_force_N": {"value": 1.0}}, set={"time.step": "1 s"})
     told = calibrate(file, tmp_path / "out")
     assert told.exit_code == 2
-    assert "only 0 points have a result for peak_force_N" in told.output
+    assert "only 0 points have a result for peak_force_N; runs fail: " in told.output
 
 
 def bowl(points: np.ndarray, noise: float) -> list[list[Response]]:
@@ -175,6 +177,22 @@ def test_points_are_proposed_where_the_goals_are_met() -> None:
     found = optimum(fit(points, bowl(points, 0.002), GOALS), points, 1)
     meets = misfit((np.array([[found[0] + found[1], found[0] * found[1]]]) - [0.9, 0.18]) / 0.02)
     assert float(meets[0]) < 1.0
+
+
+def test_noise_without_repeats_is_read_from_the_points() -> None:
+    """Points that scatter about a straight line do not make it wave."""
+    random = np.random.default_rng(5)
+    points = np.sort(random.random((14, 1)), axis=0)
+    values = 20.0 * points[:, 0] + random.normal(size=14)
+    told = fit(points, [[Response(float(x), 0.0)] for x in values], [Goal("a", "a", False, 10.0, 1.0)])
+    grid = np.linspace(0.0, 1.0, 101)[:, None]
+    assert np.abs(told.predict(grid)[0][:, 0] - (20.0 * grid[:, 0] - 10.0)).max() < 3.0
+    assert told.slopes(np.array([0.5]))[0, 0] == pytest.approx(20.0, abs=8.0)
+
+
+def test_the_smallest_budget_is_enough(tmp_path: Path) -> None:
+    target = {"peak_force_N": {"value": measured(tmp_path)["peak_force_N"], "within": 0.1}}
+    assert calibrate(calibration_file(tmp_path, targets=target, budget=4), tmp_path / "out").exit_code == 0
 
 
 def test_noise_is_not_taken_for_a_trend() -> None:

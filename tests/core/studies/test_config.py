@@ -12,8 +12,10 @@ from clast.studies.config import load_study
 from clast.studies.design import points
 from clast.studies.tasks import tasks
 from tests.core.studies.support import study, study_file
+from tests.scenes import COLLISION, CRUSH, write
 
 YIELD = "bonds.model.yield_stress"
+STATEMENT = {"says": "x", "check": "equals", "measure": "peak_stress_Pa", "value": "3 MPa"}
 
 
 @pytest.mark.parametrize(
@@ -47,6 +49,11 @@ YIELD = "bonds.model.yield_stress"
             },
             "160,000 runs, where a study may have 100,000",
         ),
+        ({"vary": {YIELD: {"from": "1 mm", "to": "3 mm", "points": 2}}}, "is a length; a stress is needed"),
+        ({"vary": {YIELD: [1]}, "variants": {"a": {YIELD: 2}}}, f"axis '{YIELD}' sets this key at every point"),
+        ({"vary": {YIELD: ["1 MPa"]}, "expect": [STATEMENT | {"where": {YIELD: "9 MPa"}}]}, "they are 1 MPa"),
+        ({"vary": {YIELD: ["1 MPa"]}, "expect": [STATEMENT | {"where": {YIELD: "1 mm"}}]}, "which is a stress"),
+        ({"vary": {YIELD: ["1 MPa"]}, "expect": [STATEMENT | {"value": "3 mm"}]}, "is a length; a stress is needed"),
         ({"repeets": 2}, "did you mean 'repeats'?"),
         ({"grain": "any"}, "'per_repeat'"),
         ({"expect": [{"says": "x", "check": "grows"}]}, "needs a 'measure'"),
@@ -75,6 +82,16 @@ def test_statements_about_axes_that_do_not_exist_are_refused(tmp_path: Path) -> 
     expect = [{"says": "x", "check": "same", "measure": "peak", "where": {YIELD: 1e6}}]
     with pytest.raises(ConfigError, match=r"expect\.0\.measure: .*'peak'"):
         study(tmp_path, vary={YIELD: [1e6]}, expect=expect)
+
+
+def test_a_measure_that_the_scene_cannot_have_is_told(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"has no 'compression', so there is no peak_stress_Pa"):
+        study(tmp_path, COLLISION, expect=[STATEMENT])
+
+
+def test_a_scene_that_is_taken_for_a_study_is_told(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"this is a scene, not a study of one; run it with 'clast run"):
+        load_study(write(tmp_path, CRUSH))
 
 
 def test_a_study_without_axes_is_repeats_alone(tmp_path: Path) -> None:

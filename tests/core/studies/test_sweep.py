@@ -18,6 +18,7 @@ import pytest
 from click.testing import CliRunner
 
 from clast.cli import main
+from clast.results.run_folder import locked
 from clast.studies import conduct as conducting
 from tests.core.studies.support import QUICK, study_file
 from tests.core.test_resume import assert_same_bytes
@@ -201,6 +202,36 @@ def test_results_that_cannot_be_read_are_told(tmp_path: Path) -> None:
     shutil.rmtree(tmp_path / "out" / "runs" / name)
     again = sweep(file, tmp_path / "out")
     assert again.exit_code == 0, again.output
+
+
+def test_a_folder_has_one_study_at_a_time_and_keeps_nothing_of_it_that_no_longer_holds(tmp_path: Path) -> None:
+    expect = [{"says": "grows", "check": "grows", "measure": "peak_stress_Pa"}]
+    keys = {"set": QUICK, "vary": {YIELD: ["1 MPa"]}}
+    assert sweep(study_file(tmp_path, expect=expect, **keys), tmp_path / "out").exit_code == 0
+    assert (tmp_path / "out" / "verdicts.csv").exists()
+    assert sweep(study_file(tmp_path, **keys), tmp_path / "out").exit_code == 0
+    assert not (tmp_path / "out" / "verdicts.csv").exists()
+    told = sweep(study_file(tmp_path, study="other", **keys), tmp_path / "out")
+    assert "holds the study 'try'; choose another folder for 'other'" in told.output
+    with locked(tmp_path / "out"):
+        assert "another study is writing into it" in sweep(study_file(tmp_path, **keys), tmp_path / "out").output
+
+
+def test_workers_end_with_the_process_that_leads(tmp_path: Path) -> None:
+    file = study_file(tmp_path, vary={YIELD: ["1 MPa", "2 MPa"]}, set={"time.end.strain": 0.1})
+    command = [*CLAST, "sweep", str(file), "-o", str(tmp_path / "out"), "--workers", "1"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
+    wait_for(lambda: list((tmp_path / "out" / "runs").glob("*/checkpoint.h5")), process)
+    process.kill()
+    deadline = time.monotonic() + 30
+    while True:
+        try:
+            os.killpg(process.pid, 0)
+        except ProcessLookupError:
+            break
+        assert time.monotonic() < deadline, "workers go on without anyone to hear them"
+        process.poll()
+        time.sleep(0.2)
 
 
 def test_a_dask_cluster_does_the_runs(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isinf
 from typing import Any
 
@@ -91,6 +92,26 @@ def test_one_selection_against_another() -> None:
     assert verdict(table(lambda x: x, 0.2), check="larger", **where) == REPRODUCED
     assert verdict(table(lambda x: x, 0.2), check="smaller", **where) == NOT_REPRODUCED
     assert verdict(table(lambda x: 1.0, 0.2), check="larger", **where) == OPEN
+
+
+def test_values_are_selected_by_name_too() -> None:
+    found = table(lambda x: x, 0.2, points=(1.0, 2.0))
+    names = {1.0: "soft", 2.0: "hard"}
+    rows = [
+        replace(row, task=replace(row.task, settings=(Setting("x", names[s.number], s.number, {}),)))
+        for row in found.rows
+        for s in row.task.settings
+    ]
+    where = {"where": {"x": "hard"}, "than": {"x": "soft"}, "measure": "m"}
+    assert verdict(Table(rows), check="larger", **where) == REPRODUCED
+
+
+def test_repeats_that_are_the_same_run_count_once() -> None:
+    task = Task("same", "", 0, 0, (Setting("x", "1", 1.0, {}),), "")
+    rows = [Row(replace(task, repeat=k), "done", "", {"m": 5.0}) for k in range(4)]
+    assert len(Table(rows).done()) == 1
+    ((_, runs),) = Table(rows).points("")
+    assert len(runs) == 1
 
 
 def test_what_is_missing_is_not_decidable() -> None:
