@@ -58,6 +58,6 @@ def write_page(manuscript: Manuscript, outcomes: dict[str, StudyOutcome], page: 
         if image is not None:
             shutil.copyfile(drawn, page.parent / image)
         sections[name] = section(outcome, image)
-    text = manuscript.filled(sections, statements({name: each.verdicts for name, each in outcomes.items()}))
+    text = manuscript.filled(sections, statements(outcomes))
     with whole_file(page) as draft:
         draft.write_text(text, encoding="utf-8")

@@ -40,21 +40,26 @@ def reasons(outcome: StudyOutcome) -> str:
     return " ".join(f"{values}: {reason}." for reason, values in list(found.items())[:3])
 
 
-def statements(verdicts: Mapping[str, Sequence[Verdict]]) -> str:
+def statements(outcomes: Mapping[str, StudyOutcome]) -> str:
     """Return one table of all statements: a line each, a column for every setting.
 
     Parameters
     ----------
-    verdicts : mapping
-        Name of a study -> its verdicts.
+    outcomes : mapping
+        Name of a study -> its outcome.
     """
-    settings = list(dict.fromkeys(each.variant for every in verdicts.values() for each in every))
+    every = {name: [(each, _mark(outcome, each)) for each in outcome.verdicts] for name, outcome in outcomes.items()}
+    settings = list(dict.fromkeys(verdict.variant for found in every.values() for verdict, _ in found))
     rows = []
-    for study, every in verdicts.items():
-        for says in dict.fromkeys(each.expectation.says for each in every):
-            given = {each.variant: MARKS[each.verdict] for each in every if each.expectation.says == says}
+    for study, found in every.items():
+        for says in dict.fromkeys(verdict.expectation.says for verdict, _ in found):
+            given = {verdict.variant: mark for verdict, mark in found if verdict.expectation.says == says}
             rows.append([study, says, *(given.get(setting, "") for setting in settings)])
     return table(["study", "statement", *(setting or "verdict" for setting in settings)], rows)
+
+
+def _mark(outcome: StudyOutcome, verdict: Verdict) -> str:
+    return MARKS[verdict.verdict] if outcome.table.done(verdict.variant) else "not run"
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

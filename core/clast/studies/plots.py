@@ -32,8 +32,8 @@ SHOWN = {
 }
 """Measures that are drawn, with what stands at their axis and its factor."""
 
-LONG = 30
-"""Characters of a label that leave no room for another beside it."""
+WIDTH, HANDLE = 64, 8
+"""Characters that a legend below one panel has room for, and those that the line before each label takes."""
 
 MOST = 12
 """Curves of points that a legend can name."""
@@ -55,10 +55,22 @@ def draw_curves(table: Table, scene: SceneConfig, path: Path) -> bool:
         panels = figure.subplots(1, len(variants), sharey=True, squeeze=False)[0]
         for axis, variant in zip(panels, variants, strict=True):
             _draw_variant(axis, list(table.points(variant)), scene)
-            axis.set(title=variant, xlabel="strain, %")
-        panels[0].set_ylabel("stress, MPa")
+            axis.set(title=variant, xlabel="strain, %", xlim=(0.0, None))
+        panels[0].set(ylabel="stress, MPa", ylim=(0.0, None))
+        _draw_legend(figure, panels, table)
         _save(figure, path)
     return True
+
+
+def _draw_legend(figure: Figure, panels: Sequence[Any], table: Table) -> None:
+    """Name every curve once, below all panels, in as many columns as its labels leave room for."""
+    named = {label: handle for axis in panels for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+    if not named:
+        return
+    columns = max(1, min(len(named), WIDTH * len(panels) // (max(map(len, named)) + HANDLE)))
+    few = all(len(list(table.points(variant))) <= MOST for variant in table.variants)
+    title = ", ".join(table.axes) if table.axes and few else None
+    figure.legend(named.values(), named.keys(), title=title, loc="outside lower center", ncols=columns)
 
 
 def _draw_variant(axis: Any, points: Sequence[tuple[int, list[Row]]], scene: SceneConfig) -> None:
@@ -78,7 +90,7 @@ def _draw_variant(axis: Any, points: Sequence[tuple[int, list[Row]]], scene: Sce
     if len(points) > MOST:
         _draw_mean(axis, [row for _, rows in points for row in rows])
     for each in scene.reference:
-        axis.errorbar(
+        marker = axis.errorbar(
             100.0 * each.strain,
             each.stress / 1e6,
             xerr=100.0 * each.strain_deviation or None,
@@ -87,15 +99,8 @@ def _draw_variant(axis: Any, points: Sequence[tuple[int, list[Row]]], scene: Sce
             color="black",
             markersize=4.0,
             linewidth=0.8,
-            label=each.label,
         )
-    axis.set(xlim=(0.0, None), ylim=(0.0, None))
-    labels = axis.get_legend_handles_labels()[1]
-    if labels:
-        names = ", ".join(setting.axis for setting in points[0][1][0].task.settings)
-        columns = 3 if max(map(len, labels)) <= LONG else 1
-        title = names if names and len(points) <= MOST else None
-        axis.legend(title=title, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=columns)
+        axis.legend([marker], [each.label], loc="upper left")
 
 
 def _draw_mean(axis: Any, rows: Sequence[Row]) -> None:

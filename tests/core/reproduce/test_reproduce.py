@@ -60,7 +60,7 @@ def test_what_is_not_run_yet_is_told(tmp_path: Path) -> None:
     folder, page = manuscript(tmp_path / "book"), tmp_path / "page.md"
     assert reproduce(folder, "-o", page, "--runs", tmp_path / "runs", "--collect").exit_code == 0
     assert "Of 2 runs: 2 not run." in page.read_text()
-    assert "not decidable" in page.read_text()
+    assert f"| strength | {SAYS} | not run |" in page.read_text()
 
 
 def test_names_that_are_not_there_are_told(tmp_path: Path) -> None:
