@@ -67,14 +67,12 @@ def fit(points: Floats, responses: Sequence[Sequence[Response]], goals: Sequence
     Raises
     ------
     ConfigError
-        If scikit-learn is not installed, or too few points have a response.
+        If too few points have a response.
     """
-    try:
-        from sklearn.exceptions import ConvergenceWarning
-        from sklearn.gaussian_process import GaussianProcessRegressor
-        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
-    except ImportError:
-        raise ConfigError("clast calibrate needs scikit-learn: pip install 'clast[calibrate]'") from None
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
+
     processes, sizes = [], []
     for k, goal in enumerate(goals):
         told = np.array([(each[k].value, each[k].error) for each in responses])

@@ -96,7 +96,7 @@ def dask(scheduler: str | None, workers: int | None = None) -> Maker:
     try:
         import distributed
     except ImportError:
-        raise ConfigError("--executor dask needs the package 'distributed': pip install 'clast[dask]'") from None
+        raise ConfigError("--executor dask needs the package 'distributed': pip install distributed") from None
 
     def make() -> Executor:
         try:
