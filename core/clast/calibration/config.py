@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, PrivateAttr, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from clast.config.document import Document, Problem
+from clast.config.document import Problem
 from clast.config.names import FolderName
-from clast.config.problems import located
 from clast.config.quantities import Number, read_quantity, to_si
-from clast.config.scene import SceneConfig, load
-from clast.config.yaml_loader import read_document
-from clast.errors import ConfigError, KeyPath
 from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
+from clast.studies.asking import Asking, Grain, read_asking, read_for
 from clast.studies.axis_config import AxisConfig, Given
-from clast.studies.config import Changes
 from clast.studies.measures import FROM_SUMMARY, MEASURES, unit_of
 
 LEAST_POINTS = 3
@@ -49,37 +45,20 @@ class Target(Params):
         return self
 
 
-class CalibrationConfig(Params):
+class CalibrationConfig(Asking):
     """A calibration, validated; made by :func:`load_calibration`."""
 
     calibration: Annotated[FolderName, Field(description="Name; by default that of the file")] = "calibration"
     description: Annotated[str, Field(description="What is fitted to what")] = ""
-    base: Annotated[str, Field(description="Scene file that all runs start from, relative to this file")]
-    set: Annotated[Changes, Field(description="Changes of the scene in all runs")] = Field(default_factory=dict)
     parameters: Annotated[
         dict[str, AxisConfig], Field(min_length=1, max_length=12, description="What is fitted: key -> bounds")
     ]
     targets: Annotated[dict[str, Target], Field(min_length=1, description="What was measured: measure -> target")]
     repeats: Annotated[int, Field(ge=1, le=1000, description="Runs a point, with other seeds each")] = 3
-    grain: Annotated[
-        Literal["same", "per_repeat", "per_run"], Field(description="As in a study: which runs share a packing")
-    ] = "per_repeat"
+    grain: Grain = "per_repeat"
     budget: Annotated[int, Field(ge=4, le=1_000_000, description="Runs in all")]
     first: Annotated[Number, Field(gt=0, lt=1, description="Share of the budget for points that fill the space")] = 0.5
     seed: Annotated[int, Field(ge=0, description="Seed of the points")] = 1
-
-    _document: Document = PrivateAttr()
-    _scene: SceneConfig = PrivateAttr()
-
-    @property
-    def document(self) -> Document:
-        """The calibration as written."""
-        return self._document
-
-    @property
-    def scene(self) -> SceneConfig:
-        """The base scene, with what the command line changes."""
-        return self._scene
 
     @property
     def points(self) -> int:
@@ -91,9 +70,9 @@ class CalibrationConfig(Params):
         """How many of them fill the space."""
         return max(LEAST_POINTS, round(self.first * self.points))
 
-    def problem(self, path: KeyPath, text: str) -> ConfigError:
-        """Error for the caller to raise, with its place in the file in front."""
-        return ConfigError(self._document.report([Problem(path, text)]), at=None)
+    def problems(self) -> Iterator[Problem]:
+        """Bounds, names, units and budgets that cannot be."""
+        yield from _problems(self)
 
     def measured_curve(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return strain and stress in Pa of the target curve, (s,) each.
@@ -104,7 +83,7 @@ class CalibrationConfig(Params):
             There is no such file, or it has no such columns of numbers.
         """
         name = self.targets[CURVE].file or ""
-        place = (("targets", CURVE, "file"), self._document.folder / name)
+        place = (("targets", CURVE, "file"), self.document.folder / name)
         try:
             with place[1].open(newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
@@ -128,25 +107,9 @@ def load_calibration(path: str | Path, overrides: Iterable[str] = ()) -> Calibra
     ConfigError
         All problems at once, each with its place.
     """
-    document = read_document(path)
-    data: dict[str, Any] = dict(document.data)
-    if "targets" not in data and data.keys() & {"materials", "vary"}:
-        raise ConfigError(
-            f"{path}: this is a scene or a study, not a calibration, which has 'parameters' and 'targets'"
-        )
-    data.setdefault("calibration", Path(document.name).stem)
-    try:
-        found = CalibrationConfig.model_validate(data)
-    except ValidationError as error:
-        raise ConfigError(document.report(located(error, CalibrationConfig, document))) from None
-    found._document = document
-    problems = list(_problems(found))
-    if problems:
-        raise ConfigError(document.report(problems))
-    base = document.folder / found.base
-    if not base.is_file():
-        raise found.problem(("base",), f"{found.base!r}: no such file; the path starts at the folder of this file")
-    found._scene = load(base, overrides)
+    advice = "this is a scene or a study, not a calibration, which has 'parameters' and 'targets'"
+    document = read_for(path, ("materials", "vary"), "targets", advice)
+    found = read_asking(CalibrationConfig, "calibration", document, overrides)
     if CURVE in found.targets:
         found.measured_curve()
     return found
@@ -159,7 +122,7 @@ def _backwards(axis: AxisConfig) -> bool:
         return False  # is told when the axis is made
 
 
-def _problems(config: CalibrationConfig) -> Iterable[Problem]:
+def _problems(config: CalibrationConfig) -> Iterator[Problem]:
     known = [CURVE, *MEASURES, *FROM_SUMMARY]
     for name, axis in config.parameters.items():
         if axis.start is None:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from clast.errors import ConfigError
+
 FILE = "report.html"
+ENTRY_POINT = "clast.report"
+"""Under which a package offers to write reports; Clast's own is in ``clast_viz``, which the core does not import."""
 
 
 def report(folders: Sequence[Path], output: Path | None = None) -> None:
@@ -23,10 +27,25 @@ def report(folders: Sequence[Path], output: Path | None = None) -> None:
     ClastError
         If a folder is not that of a run, a sweep or a calibration.
     """
-    from clast_viz.report.write import write_report
-
     chosen = list({folder.resolve(): folder for folder in folders}.values())
     page = output if output is not None else (chosen[0] if len(chosen) == 1 else Path()) / FILE
-    for damage in write_report(chosen, page):
+    for damage in report_writer()(chosen, page):
         print(f"cannot be read: {damage}")
     print(page)
+
+
+def report_writer() -> Callable[[Sequence[Path], Path], Sequence[str]]:
+    """Return what writes pages: ``(folders, page) -> messages about what could not be read``.
+
+    Raises
+    ------
+    ConfigError
+        If no installed package offers it.
+    """
+    from importlib.metadata import entry_points
+
+    found = [*entry_points(group=ENTRY_POINT)]
+    if not found:
+        raise ConfigError(f"no installed package writes reports (entry point {ENTRY_POINT!r}); install Clast anew")
+    writer: Callable[[Sequence[Path], Path], Sequence[str]] = found[0].load()
+    return writer

@@ -7,6 +7,7 @@ import time
 from collections.abc import Iterable
 from pathlib import Path
 
+from clast.commands.live_bar import LiveBar
 from clast.config.scene import SceneConfig, load
 from clast.errors import RunError
 from clast.forecast import duration, run_seconds, time_concerns
@@ -105,38 +106,16 @@ class Lines(Listener):
         self.say(f"writing {name}")
 
 
-class Bar(Lines):
+class Bar(LiveBar, Lines):
     """Progress as a live bar, for terminals."""
-
-    def __enter__(self) -> Bar:
-        """Show the bar."""
-        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
-
-        self.bar = Progress(TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), refresh_per_second=8)
-        self.bar.start()
-        self.task = self.bar.add_task("starting", total=None)
-        return self
-
-    def __exit__(self, *reason: object) -> None:
-        """Remove the bar."""
-        self.bar.stop()
-
-    def say(self, text: str) -> None:
-        """Print above the bar."""
-        self.bar.console.print(text, highlight=False)
 
     def progress(self, simulation: Simulation, rate: float) -> None:
         """Move the bar."""
-        self.bar.update(
-            self.task,
-            description="  ".join(status(simulation, rate)),
-            completed=simulation.step,
-            total=simulation.last_step,
-        )
+        self.move("  ".join(status(simulation, rate)), simulation.step, simulation.last_step)
 
     def writing(self, name: str) -> None:
         """Tell which writer works."""
-        self.bar.update(self.task, description=f"writing {name}")
+        self.move(f"writing {name}", 1, 1)
 
 
 def console_listener(config: SceneConfig) -> Lines:

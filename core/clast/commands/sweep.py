@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from clast.commands.live_bar import LiveBar
 from clast.forecast import duration
 from clast.results.run_folder import locked
 from clast.studies import layout
@@ -122,29 +123,12 @@ class Lines(Audience):
         return text
 
 
-class Bar(Lines):
+class Bar(LiveBar, Lines):
     """Progress as a live bar, for terminals."""
-
-    def __enter__(self) -> Bar:
-        """Show the bar."""
-        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-        self.bar = Progress(BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn(), refresh_per_second=4)
-        self.bar.start()
-        self.task = self.bar.add_task("starting", total=None)
-        return self
-
-    def __exit__(self, *reason: object) -> None:
-        """Remove the bar."""
-        self.bar.stop()
-
-    def say(self, text: str) -> None:
-        """Print above the bar."""
-        self.bar.console.print(text, highlight=False, soft_wrap=True)
 
     def show(self) -> None:
         """Move the bar."""
-        self.bar.update(self.task, description=self.status(), completed=self.done + self.failed, total=self.asked)
+        self.move(self.status(), self.done + self.failed, self.asked)
 
 
 def console_audience() -> Lines:

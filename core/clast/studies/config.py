@@ -6,35 +6,28 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PrivateAttr, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from clast.config.document import Document, Problem
+from clast.config.document import Problem
 from clast.config.names import FolderName, Key
-from clast.config.problems import located
 from clast.config.quantities import to_si
-from clast.config.scene import SceneConfig, load
-from clast.config.yaml_loader import read_document
-from clast.errors import ConfigError, KeyPath
-from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
+from clast.studies.asking import Asking, Changes, read_asking, read_for
 from clast.studies.axis_config import AxisConfig
 from clast.studies.expectation_config import CURVES, Expectation
 from clast.studies.measures import FROM_SUMMARY, MEASURES, unit_of
 
-Changes = Annotated[dict[str, Any], Field(description="Key path in the scene -> value, as --set would have them")]
 SPACE_FILLING = ("latin_hypercube", "sobol", "random")
 
 QUIET = {"output.writers": [], "output.frames": 0}
 """What a run of a study leaves out, unless ``set`` says otherwise: it is one of many, and its curves tell."""
 
 
-class StudyConfig(Params):
+class StudyConfig(Asking):
     """A study, validated; made by :func:`load_study`."""
 
     study: Annotated[FolderName, Field(description="Name of the study; by default that of the file")] = "study"
     description: Annotated[str, Field(description="What the study is to show")] = ""
-    base: Annotated[str, Field(description="Scene file that all runs start from, relative to the study file")]
-    set: Annotated[Changes, Field(description="Changes of the scene in all runs")] = Field(default_factory=dict)
     variants: Annotated[
         dict[Key, Changes], Field(description="Named sets of changes; the whole study is made with each")
     ] = Field(default_factory=dict)
@@ -48,14 +41,7 @@ class StudyConfig(Params):
     points: Annotated[int | None, Field(ge=1, le=100_000, description="How many points fill the space")] = None
     seed: Annotated[int, Field(ge=0, description="Seed of points that are drawn")] = 1
     repeats: Annotated[int, Field(ge=1, le=10_000, description="Runs a point, with other seeds each")] = 1
-    grain: Annotated[
-        Literal["same", "per_repeat", "per_run"],
-        Field(description="One packing in all runs, one for each repeat, or another one in every run"),
-    ] = "same"
     expect: Annotated[tuple[Expectation, ...], Field(description="Statements that the study is to check")] = ()
-
-    _document: Document = PrivateAttr()
-    _scene: SceneConfig = PrivateAttr()
 
     @model_validator(mode="after")
     def _points_where_needed(self) -> StudyConfig:
@@ -64,16 +50,6 @@ class StudyConfig(Params):
         if self.design not in SPACE_FILLING and self.points is not None:
             raise ValueError(f"'points' belongs to the designs {', '.join(SPACE_FILLING)}; '{self.design}' has its own")
         return self
-
-    @property
-    def document(self) -> Document:
-        """The study as written."""
-        return self._document
-
-    @property
-    def scene(self) -> SceneConfig:
-        """The base scene, with what the command line changes."""
-        return self._scene
 
     @property
     def of_accidents(self) -> bool:
@@ -85,9 +61,9 @@ class StudyConfig(Params):
         """Changes by the name of their variant; one without a name, where the study has none."""
         return dict(self.variants) or {"": {}}
 
-    def problem(self, path: KeyPath, text: str) -> ConfigError:
-        """Error for the caller to raise, with its place in the study file in front."""
-        return ConfigError(self._document.report([Problem(path, text)]), at=None)
+    def problems(self) -> Iterator[Problem]:
+        """Names in statements that are no axis, no variant and no measure."""
+        yield from _unknown_names(self)
 
 
 def load_study(path: str | Path, overrides: Iterable[str] = ()) -> StudyConfig:
@@ -105,24 +81,9 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> StudyConfig:
     ConfigError
         All problems at once, each with its place.
     """
-    document = read_document(path)
-    data = dict(document.data)
-    if "materials" in data and "base" not in data:
-        raise ConfigError(f"{path}: this is a scene, not a study of one; run it with 'clast run {path}'")
-    data.setdefault("study", Path(document.name).stem)
-    try:
-        study = StudyConfig.model_validate(data)
-    except ValidationError as error:
-        raise ConfigError(document.report(located(error, StudyConfig, document))) from None
-    study._document = document
-    problems = list(_unknown_names(study))
-    if problems:
-        raise ConfigError(document.report(problems))
-    base = document.folder / study.base
-    if not base.is_file():
-        raise study.problem(("base",), f"{study.base!r}: no such file; the path starts at the study's folder")
-    study._scene = load(base, overrides)
-    if study._scene.compression is None:
+    advice = f"this is a scene, not a study of one; run it with 'clast run {path}'"
+    study = read_asking(StudyConfig, "study", read_for(path, ("materials",), "base", advice), overrides)
+    if study.scene.compression is None:
         for k, each in enumerate(study.expect):
             if each.measure not in FROM_SUMMARY:
                 text = f"{study.base!r} has no 'compression', so there is no {each.measure}"
