@@ -114,7 +114,7 @@ def si_unit(dimension: Dimension) -> str:
     """Return the unit in SI of a dimension, as it can be read again; empty for plain numbers.
 
     >>> si_unit((-1, 1, -2, 0)), unit_factor(si_unit((-1, 1, -2, 0)))
-    ('m-1 kg1 s-2', (Decimal('1.000'), (-1, 1, -2, 0)))
+    ('m-1 kg1 s-2', (Decimal('1'), (-1, 1, -2, 0)))
     """
     return " ".join(f"{name}{power}" for name, power in zip(("m", "kg", "s", "rad"), dimension, strict=True) if power)
 
