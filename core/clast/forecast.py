@@ -16,7 +16,7 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
-from clast.scene.build import generated, join
+from clast.scene.build import generated, join, site
 from clast.scene.compression import Gauge
 from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
@@ -156,7 +156,11 @@ def _bonded_gaps(config: SceneConfig) -> Gaps | None:
     between = config.bonds.between if config.bonds is not None else None
     if between is None:
         return None
-    return Gaps(-math.inf if between.min_gap is None else between.min_gap, between.max_gap)
+    least = -math.inf if between.min_gap is None else between.min_gap
+    if between.relative_gap is not None:
+        return Gaps(least, between.relative_gap, relative=True)
+    assert between.max_gap is not None
+    return Gaps(least, between.max_gap)
 
 
 def _predicted(config: SceneConfig, chosen: Chosen) -> Prediction | None:
@@ -166,9 +170,9 @@ def _predicted(config: SceneConfig, chosen: Chosen) -> Prediction | None:
         return None
     between = config.bonds.between if config.bonds is not None else None
     with config.placing(config.path_of(chosen)):
-        told: Prediction = predict(chosen.params, config.folder, _bonded_gaps(config))
+        told: Prediction = predict(chosen.params, site(config), _bonded_gaps(config))
         if between is not None and between.materials is not None and told.material not in between.materials:
-            told = predict(chosen.params, config.folder, None)
+            told = predict(chosen.params, site(config), None)
     return told
 
 
@@ -183,7 +187,7 @@ def _sample(config: SceneConfig, told: list[Prediction | None]) -> Scene:
 
 def _two_neighbours(told: Prediction, gaps: Gaps | None) -> Packing:
     """Return two particles that touch, or are as near as the scene bonds them."""
-    gap = 0.5 * (gaps.least + gaps.most) if gaps is not None and gaps.least > 0.0 else 0.0
+    gap = 0.5 * (gaps.least + gaps.of(2.0 * told.radius).most) if gaps is not None and gaps.least > 0.0 else 0.0
     return Packing(
         position=np.array([[0.0, 0.0, 0.0], [2.0 * told.radius + gap, 0.0, 0.0]]),
         radius=np.full(2, told.radius),

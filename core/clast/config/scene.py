@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from enum import Enum
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, ValidationError
 
 from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
-from clast.config.choice import Chosen, PartOf, default_part, plain_fields
+from clast.config.choice import Chosen, PartOf, default_part
 from clast.config.document import Document, Problem
 from clast.config.names import FolderName, Key
 from clast.config.overrides import apply_overrides
+from clast.config.plain import plain_data
 from clast.config.problems import UNKNOWN_PART, located
 from clast.config.references import check_references
 from clast.config.sections import (
@@ -155,7 +155,7 @@ class SceneConfig(Params):
 
         Paths (the scene's ``plugins``, and parameters declared as ``Path``) become absolute.
         """
-        plain = _plain(self, self.folder.resolve())
+        plain = plain_data(self, self.folder.resolve())
         plain["plugins"] = [str((self.folder / file).resolve()) for file in self.plugins]
         return {key: value for key, value in plain.items() if value is not None}
 
@@ -245,11 +245,12 @@ def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
     """Every part below a value, with the key path at which it was chosen."""
     if isinstance(value, Chosen):
         yield path, value
+        yield from _chosen_in(value.params, path)
     elif isinstance(value, WallChoice):
-        yield path, value.shape
+        yield from _chosen_in(value.shape, path)
         yield from _chosen_in(value.motion, (*path, "motion"))
     elif isinstance(value, NeighbourChoice):
-        yield path, value.search
+        yield from _chosen_in(value.search, path)
     elif isinstance(value, BaseModel):
         yield from _chosen_in({name: getattr(value, name) for name in type(value).model_fields}, path)
     elif isinstance(value, Mapping):
@@ -258,17 +259,3 @@ def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
     elif isinstance(value, list | tuple):
         for index, inner in enumerate(value):
             yield from _chosen_in(inner, (*path, index))
-
-
-def _plain(value: Any, folder: Path) -> Any:
-    if isinstance(value, Chosen | WallChoice | NeighbourChoice):
-        return _plain(value.plain(), folder)
-    if isinstance(value, Params):
-        return _plain({key: inner for key, inner in plain_fields(value).items() if inner is not None}, folder)
-    if isinstance(value, Mapping):
-        return {str(key): _plain(inner, folder) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(inner, folder) for inner in value]
-    if isinstance(value, Path):
-        return str(folder / value)
-    return value.value if isinstance(value, Enum) else value

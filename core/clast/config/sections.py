@@ -29,7 +29,13 @@ class Material(Params):
 class BondRange(Params):
     """Which pairs of particles are bonded."""
 
-    max_gap: Annotated[Length, Field(ge=0, description="Largest gap between surfaces that is bonded")]
+    max_gap: Annotated[
+        Annotated[Length, Field(ge=0)] | None, Field(description="Largest gap between surfaces that is bonded")
+    ] = None
+    relative_gap: Annotated[
+        Annotated[Number, Field(ge=0)] | None,
+        Field(description="The same as a share of the smaller particle's diameter, instead of max_gap"),
+    ] = None
     min_gap: Annotated[Length | None, Field(description="Smallest gap that is bonded; overlaps are negative gaps")] = (
         None
     )
@@ -43,7 +49,9 @@ class BondRange(Params):
 
     @model_validator(mode="after")
     def _range_is_not_empty(self) -> BondRange:
-        if self.min_gap is not None and self.min_gap > self.max_gap:
+        if (self.max_gap is None) == (self.relative_gap is None):
+            raise ValueError("give exactly one of 'max_gap' and 'relative_gap'")
+        if self.min_gap is not None and self.max_gap is not None and self.min_gap > self.max_gap:
             raise ValueError(f"min_gap {self.min_gap:g} m is larger than max_gap {self.max_gap:g} m")
         return self
 

@@ -84,11 +84,38 @@ class Packing:
     origin: Callable[[int], KeyPath | str] = lambda k: ()
 
 
+class Site(NamedTuple):
+    """What a generator may know of the scene it works for.
+
+    Attributes
+    ----------
+    folder : Path
+        Folder of the scene file, for relative paths.
+    density : mapping
+        Density of each material in kg/m³, by name.
+    """
+
+    folder: Path
+    density: Mapping[str, float] = {}
+
+
 class Gaps(NamedTuple):
-    """Bounds, both included, of the gap between two surfaces in m; overlaps are negative gaps."""
+    """Bounds, both included, of the gap between two surfaces in m; overlaps are negative gaps.
+
+    With ``relative`` the larger bound is a share of the smaller particle's diameter instead.
+    """
 
     least: float
     most: float
+    relative: bool = False
+
+    def per(self, diameter: float) -> Gaps:
+        """Return the bounds in diameters of particles of this size in m."""
+        return Gaps(self.least / diameter, self.most if self.relative else self.most / diameter, True)
+
+    def of(self, diameter: float) -> Gaps:
+        """Return the bounds in m for particles of this diameter."""
+        return Gaps(self.least, self.most * diameter if self.relative else self.most)
 
 
 class Estimate(NamedTuple):
@@ -133,14 +160,14 @@ class Generator:
         One line for ``clast plugins``.
     Params : type
         What the user writes in YAML.
-    generate : (params, folder) -> Packing
-        ``folder`` is the folder of the scene file, for relative paths.
-    predict : (params, folder, gaps) -> Prediction, optional
+    generate : (params, site) -> Packing
+        ``site`` is the :class:`Site` of the scene.
+    predict : (params, site, gaps) -> Prediction, optional
         What ``clast check`` tells, in milliseconds; ``gaps`` are those the scene bonds, None where it bonds none.
         Without it ``clast check`` calls ``generate``: leave it out where that takes no time.
     """
 
     summary: str
     Params: type[Params]
-    generate: Callable[[Any, Path], Packing]
-    predict: Callable[[Any, Path, Gaps | None], Prediction] | None = None
+    generate: Callable[[Any, Site], Packing]
+    predict: Callable[[Any, Site, Gaps | None], Prediction] | None = None

@@ -21,6 +21,7 @@ def bond_neighbours(
     max_gap: float,
     min_gap: float = -math.inf,
     diameter: float | None = None,
+    relative: bool = False,
 ) -> BondList:
     """Bond every pair whose surface gap lies in ``[min_gap, max_gap]``.
 
@@ -36,6 +37,8 @@ def bond_neighbours(
         Bounds of the gap in m, both included.
     diameter : float, optional
         Bond diameter in m; never more than the smaller particle's, which is also the default.
+    relative : bool
+        Whether ``max_gap`` is a share of the smaller particle's diameter, instead of a length.
 
     Returns
     -------
@@ -56,13 +59,15 @@ def bond_neighbours(
     >>> bonds.ends.tolist(), bonds.diameter.tolist()
     ([[0, 1]], [2.0])
     """
-    if not min_gap <= max_gap:
+    if not relative and not min_gap <= max_gap:
         raise ValueError(f"the smallest gap, {min_gap:g} m, is above the largest, {max_gap:g} m")
     if diameter is not None and not diameter > 0.0:
         raise ValueError(f"a bond diameter must be above zero; {diameter:g} m given")
-    ends, gap = close_pairs(position, radius, max_gap)
-    ends = ends[gap >= min_gap]
+    widest = max_gap * 2.0 * float(radius.max(initial=0.0)) if relative else max_gap
+    ends, gap = close_pairs(position, radius, widest)
     smaller = 2.0 * np.minimum(radius[ends[:, 0]], radius[ends[:, 1]])
+    near = (gap >= min_gap) & (gap <= (max_gap * smaller if relative else max_gap))
+    ends, smaller = ends[near], smaller[near]
     return BondList(
         ends=ends,
         diameter=smaller if diameter is None else np.minimum(diameter, smaller),

@@ -11,7 +11,7 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.mass_scaling import with_heavier_particles
 from clast.errors import ConfigError, KeyPath
-from clast.parts.generator import BondList, Packing
+from clast.parts.generator import BondList, Packing, Site
 from clast.plugins.nearest import suggestion
 from clast.scene.bonding import bond_neighbours, doubled
 from clast.scene.scatter import draw_factors, scatter_entries
@@ -46,13 +46,18 @@ def generated(config: SceneConfig, chosen: Chosen) -> Packing:
         brings bonds to a scene without a bond model.
     """
     with config.placing(config.path_of(chosen)):
-        packing: Packing = chosen.part.generate(chosen.params, config.folder)
+        packing: Packing = chosen.part.generate(chosen.params, site(config))
     if packing.bonds is not None and len(packing.bonds.ends):
         if config.bonds is None:
             text = "the scene has no section 'bonds' with a 'model' for these bonds; add it, or remove them"
             raise config.problem((*config.path_of(chosen), "bonds"), text)
         _refuse_senseless_bonds(config, chosen, packing.bonds, len(packing.radius))
     return packing
+
+
+def site(config: SceneConfig) -> Site:
+    """Return what the generators of a scene may know of it."""
+    return Site(config.folder, {name: material.density for name, material in config.materials.items()})
 
 
 def _refuse_senseless_bonds(config: SceneConfig, chosen: Chosen, bonds: BondList, particles: int) -> None:
@@ -204,7 +209,10 @@ def _near_bonds(
     between = config.bonds.between
     assert between is not None
     min_gap = -np.inf if between.min_gap is None else between.min_gap
-    near = bond_neighbours(position, radius, between.max_gap, min_gap, between.diameter)
+    relative = between.max_gap is None
+    max_gap = between.relative_gap if between.max_gap is None else between.max_gap
+    assert max_gap is not None
+    near = bond_neighbours(position, radius, max_gap, min_gap, between.diameter, relative)
     i, j = near.ends.T
     wanted = grain[i] == grain[j]
     if between.materials is not None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Annotated
 
 import numpy as np
@@ -14,7 +13,7 @@ from pydantic_core import InitErrorDetails
 from clast import hookimpl
 from clast.config.problems import problem, refuse
 from clast.config.quantities import ForceVector, Length, MomentVector, Point, SpinVector, VelocityVector
-from clast.parts.generator import BondList, Generator, Packing
+from clast.parts.generator import BondList, Generator, Packing, Site
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.grains import connected_grains
@@ -99,7 +98,7 @@ def _bond_problems(particles: Sequence[ExplicitParticle], bonds: Sequence[Explic
             )
 
 
-def generate(params: Explicit, folder: Path) -> Packing:
+def generate(params: Explicit, site: Site) -> Packing:
     """Put the written particles and bonds into arrays."""
     particles = params.particles
     bonds = _bond_list(params.bonds)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Annotated
 
 import numpy as np
@@ -11,7 +10,7 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length
-from clast.parts.generator import Gaps, Generator, Packing, Prediction
+from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.plugins.registry import Registry
 from clast.scene.packing_report import cut_sphere_volume, porosity
 from clast_plugins.generators.packing.agglomerate import (
@@ -39,12 +38,17 @@ class FlattenedAgglomerate(AgglomerateParams):
     grain has 428 primaries and crushes as reported:
 
     >>> number_of_primaries(FlattenedAgglomerate(material="glass", volume_diameter="2.3 mm", height="2.16 mm",
-    ...     primary_diameter="0.25 mm", porosity=0.45), 2.3e-3)
+    ...     primary_diameter="0.25 mm", porosity=0.45))
     428
     """
 
     volume_diameter: Annotated[Length, Field(gt=0, description="Diameter of the sphere before it is flattened")]
     height: Annotated[Length, Field(gt=0, description="Distance of the two plates, along z")]
+
+    @property
+    def whole(self) -> float:
+        """Diameter of the uncut sphere in m."""
+        return self.volume_diameter
 
     @model_validator(mode="after")
     def _fits(self) -> FlattenedAgglomerate:
@@ -54,22 +58,21 @@ class FlattenedAgglomerate(AgglomerateParams):
                 f"{millimetres(self.volume_diameter)}: nothing would be flattened; "
                 "exchange them, or use 'spherical_agglomerate'"
             )
-        if self.primary_diameter > self.height:
+        if self.primary > self.height:
             raise ValueError(
-                f"a primary of {millimetres(self.primary_diameter)} does not fit between plates "
-                f"{millimetres(self.height)} apart"
+                f"a primary of {millimetres(self.primary)} does not fit between plates {millimetres(self.height)} apart"
             )
-        number_of_primaries(self, self.volume_diameter)
-        refuse_senseless(self.macro_pores, self.height, self.primary_diameter)
+        number_of_primaries(self)
+        refuse_senseless(self.macro_pores, self.height, self.primary)
         return self
 
 
-def predict(params: FlattenedAgglomerate, folder: Path, gaps: Gaps | None) -> Prediction:
+def predict(params: FlattenedAgglomerate, site: Site, gaps: Gaps | None) -> Prediction:
     """Return how many primaries there will be, and about how many bonds."""
-    return predict_agglomerate(params, _body(params), number_of_primaries(params, params.volume_diameter), gaps)
+    return predict_agglomerate(params, _body(params), gaps)
 
 
-def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
+def generate(params: FlattenedAgglomerate, site: Site) -> Packing:
     """Pack the primaries.
 
     Raises
@@ -80,8 +83,7 @@ def generate(params: FlattenedAgglomerate, folder: Path) -> Packing:
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
         cut the grain into pieces.
     """
-    count = number_of_primaries(params, params.volume_diameter)
-    packing, reached = make_agglomerate(params, _body(params), count)
+    packing, reached = make_agglomerate(params, _body(params))
     return replace(packing, report={"primaries": len(packing.radius), **_shape(params, packing), **reached})
 
 

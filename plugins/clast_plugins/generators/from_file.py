@@ -12,7 +12,7 @@ from pydantic import Field
 
 from clast import hookimpl
 from clast.errors import about
-from clast.parts.generator import BondList, Generator, Packing
+from clast.parts.generator import BondList, Generator, Packing, Site
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.csv_table import Table, distinct, read_table
@@ -111,7 +111,7 @@ def _end(table: Table, line: int, row: dict[str, str], column: str, index: dict[
     return None if number is None else index.get(number)
 
 
-def read(params: FromFile, folder: Path) -> tuple[ParticleTable, BondList | None]:
+def read(params: FromFile, site: Site) -> tuple[ParticleTable, BondList | None]:
     """Read both tables.
 
     Raises
@@ -120,14 +120,14 @@ def read(params: FromFile, folder: Path) -> tuple[ParticleTable, BondList | None
         Anything wrong with either file.
     """
     with about("particles"):
-        particles = read_particles(folder / params.particles, params.material)
+        particles = read_particles(site.folder / params.particles, params.material)
     if params.bonds is None:
         return particles, None
     with about("bonds"):
-        return particles, read_bonds(folder / params.bonds, particles)
+        return particles, read_bonds(site.folder / params.bonds, particles)
 
 
-def generate(params: FromFile, folder: Path) -> Packing:
+def generate(params: FromFile, site: Site) -> Packing:
     """Read the particles and bonds.
 
     Raises
@@ -135,7 +135,7 @@ def generate(params: FromFile, folder: Path) -> Packing:
     ConfigError
         Anything wrong with either file.
     """
-    particles, bonds = read(params, folder)
+    particles, bonds = read(params, site)
     count, lines = len(particles.ids), particles.lines
     return Packing(
         position=particles.position,
@@ -152,7 +152,7 @@ def generate(params: FromFile, folder: Path) -> Packing:
             "particles_file": params.particles,
             **({} if params.bonds is None else {"bonds_file": params.bonds}),
         },
-        origin=lambda k: f"{folder / params.particles}:{lines[k]}",
+        origin=lambda k: f"{site.folder / params.particles}:{lines[k]}",
     )
 
 

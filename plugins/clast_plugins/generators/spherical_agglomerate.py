@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length
-from clast.parts.generator import Gaps, Generator, Packing, Prediction
+from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.plugins.registry import Registry
 from clast.scene.packing_report import porosity, sphere_volume
 from clast_plugins.generators.packing.agglomerate import (
@@ -41,30 +40,35 @@ class SphericalAgglomerate(AgglomerateParams):
     primaries of 0.25 mm in 2.16 mm, has porosity 0.44:
 
     >>> number_of_primaries(SphericalAgglomerate(
-    ...     material="glass", diameter="2.16 mm", primary_diameter="0.25 mm", porosity=0.44), 2.16e-3)
+    ...     material="glass", diameter="2.16 mm", primary_diameter="0.25 mm", porosity=0.44))
     361
     """
 
     diameter: Annotated[Length, Field(gt=0, description="Diameter of the agglomerate")]
 
+    @property
+    def whole(self) -> float:
+        """Diameter of the agglomerate in m."""
+        return self.diameter
+
     @model_validator(mode="after")
     def _fits(self) -> SphericalAgglomerate:
-        if self.primary_diameter > self.diameter:
+        if self.primary > self.diameter:
             raise ValueError(
-                f"a primary of {millimetres(self.primary_diameter)} does not fit into an agglomerate of "
+                f"a primary of {millimetres(self.primary)} does not fit into an agglomerate of "
                 f"{millimetres(self.diameter)}"
             )
-        number_of_primaries(self, self.diameter)
-        refuse_senseless(self.macro_pores, self.diameter, self.primary_diameter)
+        number_of_primaries(self)
+        refuse_senseless(self.macro_pores, self.diameter, self.primary)
         return self
 
 
-def predict(params: SphericalAgglomerate, folder: Path, gaps: Gaps | None) -> Prediction:
+def predict(params: SphericalAgglomerate, site: Site, gaps: Gaps | None) -> Prediction:
     """Return how many primaries there will be, and about how many bonds."""
-    return predict_agglomerate(params, _body(params), number_of_primaries(params, params.diameter), gaps)
+    return predict_agglomerate(params, _body(params), gaps)
 
 
-def generate(params: SphericalAgglomerate, folder: Path) -> Packing:
+def generate(params: SphericalAgglomerate, site: Site) -> Packing:
     """Pack the primaries.
 
     Raises
@@ -75,8 +79,7 @@ def generate(params: SphericalAgglomerate, folder: Path) -> Packing:
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
         cut the grain into pieces.
     """
-    count = number_of_primaries(params, params.diameter)
-    packing, reached = make_agglomerate(params, _body(params), count)
+    packing, reached = make_agglomerate(params, _body(params))
     free = porosity(packing.radius, sphere_volume(params.diameter))
     asked = {} if params.porosity is None else {"porosity_asked": params.porosity}
     return replace(packing, report={"primaries": len(packing.radius), **asked, "porosity_reached": free, **reached})

@@ -11,14 +11,14 @@ import pytest
 from pydantic import ValidationError
 
 from clast.errors import ConfigError, PackingError
-from clast.parts.generator import Packing
+from clast.parts.generator import Packing, Site
 from clast.scene.bonding import bond_neighbours
 from clast.scene.packing_report import overlaps
 from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
 from clast_plugins.generators.flattened_agglomerate import FlattenedAgglomerate
 from clast_plugins.generators.spherical_agglomerate import SphericalAgglomerate
 
-HERE = Path()
+HERE = Site(Path())
 
 
 def sphere(**changes: Any) -> SphericalAgglomerate:
@@ -152,8 +152,8 @@ def test_a_wider_tolerance_accepts_the_overlap_it_names() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"porosity": None}, "exactly one of 'porosity' and 'primaries'"),
-        ({"primaries": 100}, "exactly one of 'porosity' and 'primaries'"),
+        ({"porosity": None}, "exactly two of primary_diameter, porosity and primaries"),
+        ({"primaries": 100}, "exactly two of primary_diameter, porosity and primaries"),
         ({"porosity": 1.2}, "less than 1"),
         ({"primary_diameter": "3 mm"}, "does not fit into"),
         ({"primary_diameter": "0.25 um"}, "check the diameters and their units"),
@@ -171,7 +171,7 @@ def test_senseless_measures_of_a_sphere_are_refused(changes: dict[str, Any], sen
     [
         ({"height": "2.4 mm"}, "nothing would be flattened"),
         ({"height": "0.2 mm"}, "does not fit between"),
-        ({"porosity": None}, "exactly one"),
+        ({"porosity": None}, "exactly two"),
     ],
 )
 def test_senseless_measures_of_a_flattened_sphere_are_refused(changes: dict[str, Any], sentence: str) -> None:

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from clast.parts.generator import Site
 from clast_plugins.generators import explicit
 from clast_plugins.generators.explicit import Explicit
 
-HERE = Path()
+HERE = Site(Path())
 
 
 def particle(x: float, **more: Any) -> dict[str, Any]:

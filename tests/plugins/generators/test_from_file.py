@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from clast.errors import ConfigError
+from clast.parts.generator import Site
 from clast_plugins.generators import from_file
 from clast_plugins.generators.from_file import FromFile
 
@@ -21,12 +22,12 @@ def read(folder: Path, particles: str = PARTICLES, bonds: str | None = None, **g
     if bonds is not None:
         (folder / "b.csv").write_text(bonds)
         given["bonds"] = "b.csv"
-    return from_file.generate(FromFile(**{"particles": "p.csv", "material": "glass", **given}), folder)
+    return from_file.generate(FromFile(**{"particles": "p.csv", "material": "glass", **given}), Site(folder))
 
 
 def test_the_reference_grain_is_read_to_the_last_bit() -> None:
     params = FromFile(particles="particles.csv", bonds="bonds.csv", material="glass")
-    packing = from_file.generate(params, GRAIN_A)
+    packing = from_file.generate(params, Site(GRAIN_A))
     assert packing.bonds is not None
     assert packing.position[0].tolist() == [0.00070010099999999996, -0.00028377300000000002, -4.01617e-05]
     assert packing.bonds.ends[0].tolist() == [356, 319]
@@ -127,15 +128,15 @@ def test_two_particles_with_one_centre_cannot_be_bonded(tmp_path: Path) -> None:
 def test_a_missing_file_is_told_with_the_nearest_name(tmp_path: Path) -> None:
     read(tmp_path)
     with pytest.raises(ConfigError, match=r"pp\.csv: there is no such file \(did you mean 'p\.csv'\?\)"):
-        from_file.generate(FromFile(particles="pp.csv", material="glass"), tmp_path)
+        from_file.generate(FromFile(particles="pp.csv", material="glass"), Site(tmp_path))
 
 
 def test_a_folder_or_a_binary_file_is_no_table(tmp_path: Path) -> None:
     (tmp_path / "p.bin").write_bytes(b"\x89HDF\r\n\x1a\n\xff\xfe")
     with pytest.raises(ConfigError, match="not a text file"):
-        from_file.generate(FromFile(particles="p.bin", material="glass"), tmp_path)
+        from_file.generate(FromFile(particles="p.bin", material="glass"), Site(tmp_path))
     with pytest.raises(ConfigError, match="cannot be read"):
-        from_file.generate(FromFile(particles=".", material="glass"), tmp_path)
+        from_file.generate(FromFile(particles=".", material="glass"), Site(tmp_path))
 
 
 def test_a_particle_without_material_is_refused(tmp_path: Path) -> None:

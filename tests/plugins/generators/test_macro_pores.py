@@ -18,7 +18,7 @@ from clast.commands.build_report import report
 from clast.config.scene import SceneConfig
 from clast.errors import ConfigError, PackingError
 from clast.forecast import forecast
-from clast.parts.generator import Packing
+from clast.parts.generator import Packing, Site
 from clast.scene.build import build_scene
 from clast.scene.packing_report import cut_sphere_volume, porosity, sphere_volume
 from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
@@ -27,7 +27,7 @@ from clast_plugins.generators.packing.container import Container
 from clast_plugins.generators.packing.macro_pores import MacroPores, Voids, carve, make_voids
 from clast_plugins.generators.spherical_agglomerate import SphericalAgglomerate
 
-HERE = Path()
+HERE = Site(Path())
 CONFIGS = Path(__file__).parents[3] / "configs"
 GRAIN = Container(1.0, 0.8)
 VOLUME = cut_sphere_volume(2.0, 1.6)

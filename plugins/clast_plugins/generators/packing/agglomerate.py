@@ -6,7 +6,7 @@ import math
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from clast.config.quantities import Length, Number, Point
 from clast.engine.chunks import LARGE
@@ -43,13 +43,15 @@ class AgglomerateParams(Params):
     """
 
     material: Annotated[str, Field(description="Material of the primaries")]
-    primary_diameter: Annotated[Length, Field(gt=0, description="Diameter of a primary")]
+    primary_diameter: Annotated[
+        Length | None, Field(gt=0, description="Diameter of a primary; or give `porosity` and `primaries`")
+    ] = None
     porosity: Annotated[
         Number | None,
-        Field(gt=0, lt=1, description="Share of the sphere that is left free; or give `primaries`"),
+        Field(gt=0, lt=1, description="Share of the sphere that is left free; two of these three are needed"),
     ] = None
     primaries: Annotated[
-        int | None, Field(ge=1, le=MOST_PRIMARIES, description="Number of primaries; or give `porosity`")
+        int | None, Field(ge=1, le=MOST_PRIMARIES, description="Number of primaries; two of these three are needed")
     ] = None
     seed: Annotated[int, Field(ge=0, description="Start of the random numbers; the same seed, the same packing")] = 1
     max_overlap: Annotated[
@@ -66,6 +68,29 @@ class AgglomerateParams(Params):
         Field(description="Voids carved out of the packing; porosity and primaries are those before"),
     ] = None
 
+    @model_validator(mode="after")
+    def _two_of_three(self) -> AgglomerateParams:
+        three = ("primary_diameter", "porosity", "primaries")
+        given = [name for name in three if getattr(self, name) is not None]
+        if len(given) != 2:
+            told = " and ".join(given) or "none of them"
+            raise ValueError(f"exactly two of primary_diameter, porosity and primaries are needed; given {told}")
+        return self
+
+    @property
+    def whole(self) -> float:
+        """Diameter in m of the sphere that porosity refers to."""
+        raise NotImplementedError
+
+    @property
+    def primary(self) -> float:
+        """Diameter of a primary in m, as given or so that ``primaries`` leave the share ``porosity`` free."""
+        if self.primary_diameter is not None:
+            return self.primary_diameter
+        assert self.primaries is not None
+        assert self.porosity is not None
+        return float(self.whole * math.cbrt((1.0 - self.porosity) / self.primaries))
+
 
 class Body(NamedTuple):
     """What is packed: a sphere about the origin, cut at ± half the height (infinite when uncut)."""
@@ -80,32 +105,30 @@ class Body(NamedTuple):
         return cut_sphere_volume(self.diameter, self.height)
 
 
-def number_of_primaries(params: AgglomerateParams, diameter: float) -> int:
+def number_of_primaries(params: AgglomerateParams) -> int:
     """Return the count the user gave, or ⌊(1 − porosity)·(D/d)³⌋ for a sphere of diameter D.
 
     Raises
     ------
     ValueError
-        Neither or both of ``porosity`` and ``primaries`` are given, or the count makes no sense.
+        The count makes no sense.
     """
-    if (params.porosity is None) == (params.primaries is None):
-        raise ValueError("give exactly one of 'porosity' and 'primaries'")
     if params.primaries is not None:
         return params.primaries
     assert params.porosity is not None
-    exact = (1.0 - params.porosity) * (diameter / params.primary_diameter) ** 3
+    exact = (1.0 - params.porosity) * (params.whole / params.primary) ** 3
     if not 1.0 <= exact <= MOST_PRIMARIES:
         raise ValueError(
             f"porosity {params.porosity:g} makes {math.floor(min(exact, 1e18))} primaries of "
-            f"{millimetres(params.primary_diameter)} in {millimetres(diameter)}; "
+            f"{millimetres(params.primary)} in {millimetres(params.whole)}; "
             f"1 to {MOST_PRIMARIES} are allowed: check the diameters and their units"
         )
     # 0.5 · 2³ must give 4 however the diameters round
     return math.floor(exact * (1.0 + 1e-12))
 
 
-def predict_agglomerate(params: AgglomerateParams, body: Body, count: int, gaps: Gaps | None) -> Prediction:
-    """Return what packing ``count`` primaries into a body will make, with the bonds between near ones.
+def predict_agglomerate(params: AgglomerateParams, body: Body, gaps: Gaps | None) -> Prediction:
+    """Return what packing the primaries into a body will make, with the bonds between near ones.
 
     Raises
     ------
@@ -114,11 +137,12 @@ def predict_agglomerate(params: AgglomerateParams, body: Body, count: int, gaps:
     PackingError
         There is no room for its pores.
     """
+    count = number_of_primaries(params)
     _refuse_impossible(params, body, count)
-    d = params.primary_diameter
+    d = params.primary
     size = (body.diameter / d, body.height / d)
     packed = Bulk(count, cut_sphere_volume(*size), cut_sphere_surface(*size))
-    wanted = None if gaps is None else Gaps(gaps.least / d, gaps.most / d)
+    wanted = None if gaps is None else gaps.per(d)
     bonds = Estimate(0.0) if wanted is None else near_pairs(*packed, wanted)
     if params.macro_pores is None:
         return Prediction(count, 0.5 * d, params.material, bonds)
@@ -142,8 +166,8 @@ def near_in_number(position: Floats) -> Floats:
     return np.asarray(position[cKDTree(position).indices])
 
 
-def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple[Packing, dict[str, float | int | str]]:
-    """Pack ``count`` primaries into a body; return the packing and what was reached.
+def make_agglomerate(params: AgglomerateParams, body: Body) -> tuple[Packing, dict[str, float | int | str]]:
+    """Pack the primaries into a body; return the packing and what was reached.
 
     Raises
     ------
@@ -153,8 +177,9 @@ def make_agglomerate(params: AgglomerateParams, body: Body, count: int) -> tuple
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
         cut the grain into pieces.
     """
+    count = number_of_primaries(params)
     _refuse_impossible(params, body, count)
-    d, allowed = params.primary_diameter, _allowed_overlap(params)
+    d, allowed = params.primary, _allowed_overlap(params)
     relaxed = relax(count, around(0.5 * body.diameter / d, 0.5 * body.height / d), params.seed, allowed / d)
     if relaxed.overlap > allowed / d and not params.accept_overlap:
         raise PackingError(_too_dense(params, body, count, relaxed, allowed), _density_key(params))
@@ -180,7 +205,7 @@ def _with_pores(params: AgglomerateParams, body: Body, position: Floats) -> tupl
     if params.macro_pores is None:
         return position, {}
     voids = make_voids(params.macro_pores, _room(body), body.volume)
-    carved = carve(voids, params.primary_diameter * position, params.primary_diameter)
+    carved = carve(voids, params.primary * position, params.primary)
     return position[carved.kept], {**report_of(voids, carved, body.volume)}
 
 
@@ -189,7 +214,7 @@ def _room(body: Body) -> Container:
 
 
 def _allowed_overlap(params: AgglomerateParams) -> float:
-    return params.max_overlap if params.max_overlap is not None else TOLERANCE * params.primary_diameter
+    return params.max_overlap if params.max_overlap is not None else TOLERANCE * params.primary
 
 
 def _density_key(params: AgglomerateParams) -> KeyPath:
@@ -198,7 +223,7 @@ def _density_key(params: AgglomerateParams) -> KeyPath:
 
 def _refuse_impossible(params: AgglomerateParams, body: Body, count: int) -> None:
     """Refuse more primaries than fill their share of a body even where each pair overlaps as far as allowed."""
-    d = max(params.primary_diameter - _allowed_overlap(params), 0.0)
+    d = max(params.primary - _allowed_overlap(params), 0.0)
     filled = count * sphere_volume(d) / body.volume
     if count == 1 or params.accept_overlap or filled <= DENSEST:
         return
@@ -211,7 +236,7 @@ def _refuse_impossible(params: AgglomerateParams, body: Body, count: int) -> Non
 
 def _asked(params: AgglomerateParams, count: int) -> str:
     asked = "" if params.porosity is None else f" (porosity {params.porosity:g})"
-    return f"{count} primaries of {millimetres(params.primary_diameter)}{asked}"
+    return f"{count} primaries of {millimetres(params.primary)}{asked}"
 
 
 def _remedies(params: AgglomerateParams) -> str:
@@ -228,18 +253,18 @@ def _reached(
         "sweeps": relaxed.sweeps,
         "shakes": relaxed.shakes,
         "largest_overlap_m": left.largest,
-        "largest_overlap_per_diameter": left.largest / params.primary_diameter,
+        "largest_overlap_per_diameter": left.largest / params.primary,
         "mean_overlap_m": left.mean,
         "allowed_overlap_m": allowed,
         "overlaps_within_tolerance": "yes"
-        if relaxed.overlap * params.primary_diameter <= allowed
+        if relaxed.overlap * params.primary <= allowed
         else "no, accepted; contacts start stress-free",
         "coordination_touching": contact_coordination(position, radius),
     }
 
 
 def _too_dense(params: AgglomerateParams, body: Body, count: int, relaxed: Relaxed, allowed: float) -> str:
-    left = relaxed.overlap * params.primary_diameter
+    left = relaxed.overlap * params.primary
     luck = "" if relaxed.overlap > NEARLY else "; little is missing, so another 'seed' may do"
     return (
         f"too dense for a random packing: {_asked(params, count)} in {body.words}; after {relaxed.sweeps} sweeps and "
