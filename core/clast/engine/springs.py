@@ -11,6 +11,7 @@ from clast.engine.blueprint import Blueprint
 from clast.engine.response import Response, respond
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
+from clast.scene.near_walls import near_walls
 from clast.scene.plan import bond_stiffness, damping_coefficients, material_pairs, wall_shapes
 from clast.scene.scene import Scene
 
@@ -69,9 +70,9 @@ def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
     """Return everything that holds or touches at the start of a scene."""
     bodies = bodies_at_start(scene)
     pairs = close_pairs(scene.position, scene.radius, 0.0)[0]
-    near = np.argwhere(np.ones((len(scene.config.walls), len(scene.radius)), bool))
     everything = np.ones(len(scene.ends), bool)
     still = np.zeros((len(scene.config.walls), 3))
+    near = near_walls(scene, scene.position, still)
     responses = contact_responses(scene, plan)
     bonded_pairs_touch = plan.contacts is not None and plan.contacts.bonded_pairs
     return joined(

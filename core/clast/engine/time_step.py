@@ -7,7 +7,8 @@ The true limit of a scene is ``limits(scene, blueprint(scene)).spectral``, with 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,6 +21,9 @@ from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import Touch
 from clast.scene.plan import blueprint, bond_stiffness, material_pairs
 from clast.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from clast.engine.springs import Bodies, Springs
 
 
 class Limits(NamedTuple):
@@ -72,7 +76,7 @@ def limits(scene: Scene, plan: Blueprint) -> Limits:
         rayleigh=rayleigh_limit(scene),
         bond=bond_limit(scene),
         network=stable_step(lambda per_time: largest_eigenvalue(bonds, bodies), lambda zeta: 1.0),
-        local=local_limit(scene),
+        local=_local(springs, bodies, factor),
         spectral=stable_step(lambda per_time: largest_eigenvalue(springs, bodies, per_time), factor),
         contact=contact_limit(scene),
     )
@@ -80,13 +84,16 @@ def limits(scene: Scene, plan: Blueprint) -> Limits:
 
 def local_limit(scene: Scene) -> float:
     """Return a bound that is never above the true limit of what holds at the start, for one particle at a time."""
-    from clast.engine.damped_step import stable_step
-    from clast.engine.local_bounds import local_bounds
     from clast.engine.springs import bodies_at_start, springs_at_start
 
     plan = blueprint(scene)
-    bodies, springs = bodies_at_start(scene), springs_at_start(scene, plan)
-    factor = plan.integrator.damping_factor
+    return _local(springs_at_start(scene, plan), bodies_at_start(scene), plan.integrator.damping_factor)
+
+
+def _local(springs: Springs, bodies: Bodies, factor: Callable[[float], float]) -> float:
+    from clast.engine.damped_step import stable_step
+    from clast.engine.local_bounds import local_bounds
+
     return stable_step(lambda per_time: float(local_bounds(springs, bodies, per_time).max()), factor)
 
 

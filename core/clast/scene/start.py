@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from clast.config.scene import SceneConfig
 from clast.config.sections import Domain
 from clast.scene.bonding import close_pairs
+from clast.scene.near_walls import near_walls
 from clast.scene.plan import material_pairs, wall_shapes
 from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
@@ -169,10 +170,16 @@ def _name(scene: Scene, particle: int) -> str:
 def _refuse_wall_overlaps(scene: Scene) -> None:
     contacts = scene.config.contacts
     assert contacts is not None
-    for name, (nearest, shape) in zip(scene.config.walls, wall_shapes(scene), strict=True):
-        distance = np.array([nearest(shape, tuple(x)).distance for x in scene.position.tolist()])
-        share = 1.0 - distance / scene.radius
-        share[scene.prescribed] = 0.0
+    still = np.zeros((len(scene.config.walls), 3))
+    near = near_walls(scene, scene.position, still)
+    for w, (name, (nearest, shape)) in enumerate(zip(scene.config.walls, wall_shapes(scene), strict=True)):
+        here = near[near[:, 0] == w, 1]
+        here = here[~scene.prescribed[here]]
+        if len(here) == 0:
+            continue
+        distance = np.array([nearest(shape, tuple(x)).distance for x in scene.position[here].tolist()])
+        share = np.zeros(len(scene.radius))
+        share[here] = 1.0 - distance / scene.radius[here]
         k = int(np.argmax(share))
         if share[k] > contacts.start_overlap:
             raise scene.config.problem(
