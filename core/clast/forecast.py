@@ -30,9 +30,9 @@ PAIRS_PER_PARTICLE = 3.0
 # taken where nobody can tell
 BONDS_PER_PARTICLE = 6.0
 # peak resident memory, measured with Python 3.11, numpy 2.4, numba 0.68: interpreter and libraries, and what compiling
-# adds; then of grains of 361 to 17 700 primaries, most of it the linear system of the time step's limit
-LOADED_BYTES, COMPILER_BYTES = 210e6, 110e6
-PARTICLE_BYTES, BOND_BYTES = 600.0, 2800.0
+# adds; then of scenes of 428 to 990 584 primaries, most of it the springs of the time step's limit
+LOADED_BYTES, COMPILER_BYTES = 205e6, 110e6
+PARTICLE_BYTES, BOND_BYTES = 600.0, 720.0
 STAND_INS = 2
 """Particles that stand for a packing in the sample."""
 MANY_STEPS = 1e9

@@ -135,7 +135,7 @@ def test_more_memory_than_the_machine_has_is_pointed_out(monkeypatch: pytest.Mon
     monkeypatch.setattr(os, "sysconf", {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 50_000}.get)
     (concern,) = forecast(load(CONFIGS / GRAIN)).concerns
     assert concern.endswith(
-        "particles: about 216 MB of memory are needed, this machine has 205 MB; take fewer particles"
+        "particles: about 207 MB of memory are needed, this machine has 205 MB; take fewer particles"
     )
 
 

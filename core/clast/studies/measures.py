@@ -60,6 +60,15 @@ def secant(low: float, high: float) -> Callable[[Curve], float | None]:
     return slope
 
 
+def stress_at(strain: float) -> Callable[[Curve], float | None]:
+    """Return a measure: the stress at a strain in Pa; None where the curve ends before."""
+
+    def stress(curve: Curve) -> float | None:
+        return float(np.interp(strain, curve.strain, curve.stress)) if curve.strain[-1] >= strain else None
+
+    return stress
+
+
 def largest_drop(curve: Curve) -> float | None:
     """Return the largest fall of the stress within 1 % strain as a share of the peak."""
     top = curve.stress[curve.peak]
@@ -103,6 +112,10 @@ MEASURES: dict[str, Callable[[Curve], float | None]] = {
     "slope_20_80_Pa": lambda curve: secant_modulus(curve.strain, curve.stress, curve.peak),
     "slope_1_4_Pa": secant(0.01, 0.04),
     "slope_5_15_Pa": secant(0.05, 0.15),
+    "stress_at_5_Pa": stress_at(0.05),
+    "stress_at_10_Pa": stress_at(0.10),
+    "stress_at_15_Pa": stress_at(0.15),
+    "stress_at_20_Pa": stress_at(0.20),
     "largest_drop": largest_drop,
     "drops": drops,
     "broken_at_peak": broken_share(lambda curve: curve.peak),
