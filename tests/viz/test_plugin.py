@@ -24,7 +24,7 @@ class Registry:
         self.files[name] = part.file
 
 
-def test_five_writers_are_registered() -> None:
+def test_six_writers_are_registered() -> None:
     registry: Any = Registry()
     clast_viz.clast_register(registry)
     assert registry.files == {
@@ -33,6 +33,7 @@ def test_five_writers_are_registered() -> None:
         "figure": "stress_strain.png",
         "energy": "energy.png",
         "picture": "picture.png",
+        "grains": "grains",
     }
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from clast import hookimpl
 from clast.parts.writer import Writer
-from clast_viz import energy, figure, picture, recording, vtk
+from clast_viz import energy, figure, grain_tables, picture, recording, vtk
 
 if TYPE_CHECKING:
     from clast.plugins.registry import Registry
@@ -65,5 +65,14 @@ def clast_register(registry: Registry) -> None:
             Params=picture.PictureParams,
             file=picture.FILE,
             write=picture.write_picture,
+        ),
+    )
+    registry.writer(
+        "grains",
+        Writer(
+            summary="a folder of tables about a bed of grains: grading, damage, cracks in space and time, profiles",
+            Params=grain_tables.GrainTableParams,
+            file=grain_tables.FILE,
+            write=grain_tables.write_grain_tables,
         ),
     )

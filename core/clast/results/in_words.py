@@ -29,6 +29,9 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     if counts["bonds"]:
         rows.append(("bonds broken", f"{summary['bonds_broken']} ({summary['bonds_broken'] / counts['bonds']:.1%})"))
         rows.append(("fragments", f"{summary['fragments']}"))
+    if "grains" in summary:
+        told = summary["grains"]
+        rows.append(("grains intact, damaged, crushed", f"{told['intact']}, {told['damaged']}, {told['crushed']}"))
     if summary["particles_removed"]:
         rows.append(("particles that left", f"{summary['particles_removed']}"))
     if "energy" in summary:

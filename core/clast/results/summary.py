@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 
 from clast.engine.mass_scaling import added_mass
 from clast.engine.sources import source_files
+from clast.engine.tables import crack_rows
 from clast.engine.time_step import ruling
+from clast.granular.damage import grain_results
 from clast.results.energy import energy_results
 from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
@@ -43,8 +45,13 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         Seconds spent in the step loop and its observers, over all sessions of the run.
     """
     scene = simulation.scene
-    label = fragments(len(scene.radius), scene.ends, simulation.bond_loads()[:, 0] > 0.0)
-    sizes = np.bincount(label[simulation.world.particles.present != 0])
+    intact = simulation.bond_loads()[:, 0] > 0.0
+    label = fragments(len(scene.radius), scene.ends, intact)
+    present = simulation.world.particles.present != 0
+    sizes = np.bincount(label[present])
+    broken = np.zeros(len(scene.ends), bool)
+    broken[simulation.world.cracks.bond[crack_rows(simulation.world.cracks)]] = True
+    held = np.where(present, label, -1)
     return {
         "name": simulation.config.name,
         "versions": versions(),
@@ -74,6 +81,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "bonds_removed": len(scene.ends) - simulation.bonds_broken - simulation.bonds_intact,
         "fragments": int(np.count_nonzero(sizes)),
         "largest_fragment_particles": int(sizes.max(initial=0)),
+        **grain_results(scene.grain, scene.true_mass, held, scene.ends, broken),
         "memory_MB": peak_memory(),
         **compression_results(simulation, curves),
         **energy_results(simulation, curves),
