@@ -29,7 +29,7 @@ SHOWN = 5
 """Frames that are looked at closely where none are named."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Moment:
     """A bed in one frame. ``g`` grains.
 
@@ -63,7 +63,7 @@ class Moment:
     radius: Profile | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Granular:
     """Granular mechanics of a run.
 
@@ -94,7 +94,7 @@ class Granular:
     smallest: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Look:
     """What is known of a frame at a glance."""
 

@@ -14,7 +14,7 @@ ROUND = 1e-6
 """Relative difference of the distances from the axis up to which a wall is a tube."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Bed:
     """Frame of reference of a bed.
 

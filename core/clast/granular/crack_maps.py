@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CrackMaps:
     """Numbers of cracks in ``s`` steps of strain (of time without a compression) and ``b`` places.
 

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Grains:
     """The grains of a run as they were packed. ``n`` primaries, ``g`` grains.
 

@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Profile:
     """Shares of the room in ``b`` slabs or shells that something fills.
 
@@ -44,7 +44,7 @@ class Profile:
         return 0.5 * (self.edges[1:] + self.edges[:-1])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Packed:
     """A bed in one frame, ready to be cut into slabs and shells. ``n`` primaries, those that are there.
 

@@ -15,10 +15,10 @@ from clast_viz.compare import COLOURS, Line, comparison_figure
 from clast_viz.curves import has_compression, time_axis
 from clast_viz.energy import energy_axis, energy_figure
 from clast_viz.figure import CURVE_COLOUR, stress_strain_figure
+from clast_viz.report.axes import finish, new_axes
 from clast_viz.report.pieces import Pieces
 from clast_viz.report.printable import printable
 
-GRID = {"color": "#e4e7eb", "linewidth": 0.7}
 MOST_ROWS = 500
 """Of a filled area; a line is simplified as it is drawn."""
 SINGLE = {"color": CURVE_COLOUR}
@@ -42,11 +42,11 @@ def stress_strain(lines: Sequence[Line]) -> Any:
 
 def bonds_over_time(lines: Sequence[Line]) -> Any:
     """Draw the bonds broken over time, of runs without a compression."""
-    figure, (axes,) = _new_axes(1)
+    figure, (axes,) = new_axes(1)
     times, label = _on_one_axis([line.run.curves["time_s"] for line in lines])
     for line, time in zip(lines, times, strict=True):
         axes.plot(time, line.run.curves["bonds_broken"], linewidth=1.4, **line.style)
-    _finish(axes, label, "bonds broken")
+    finish(axes, label, "bonds broken")
     return figure
 
 
@@ -59,14 +59,14 @@ def energy(run: Run) -> Any:
 
 def fragments(pairs: Pairs, over_strain: bool) -> Any:
     """Draw how many fragments there are and what share the largest holds, over strain or time."""
-    figure, (upper, lower) = _new_axes(2)
+    figure, (upper, lower) = new_axes(2)
     times, label = _on_one_axis([found.time for found, _ in pairs])
     for (found, style), time in zip(pairs, times, strict=True):
         x = 100.0 * found.strain if over_strain else time
         upper.plot(x, found.count, linewidth=1.5, **style)
         lower.plot(x, 100.0 * found.largest, linewidth=1.5, **style)
-    _finish(upper, "", "fragments")
-    _finish(lower, "strain [%]" if over_strain else label, "largest [% vol]")
+    finish(upper, "", "fragments")
+    finish(lower, "strain [%]" if over_strain else label, "largest [% vol]")
     lower.set_ylim(0.0, 105.0)
     figure.align_ylabels()
     return figure
@@ -74,14 +74,14 @@ def fragments(pairs: Pairs, over_strain: bool) -> Any:
 
 def sizes(pairs: Pairs) -> Any:
     """Draw the share of the volume in fragments up to a size, at the end: the curve that sieves would give."""
-    figure, (axes,) = _new_axes(1)
+    figure, (axes,) = new_axes(1)
     end = 1.03e3 * max(found.diameters.max(initial=0.0) for found, _ in pairs)
     for found, style in pairs:
         diameter = 1e3 * found.diameters
         share = 100.0 * np.cumsum(diameter**3) / max(float((diameter**3).sum()), 1e-300)
         edge = np.concatenate([[0.0], diameter, [end]])
         axes.step(edge, np.concatenate([[0.0], share, share[-1:]]), where="post", linewidth=1.5, **style)
-    _finish(axes, "diameter of fragments [mm]", "volume in smaller ones [%]")
+    finish(axes, "diameter of fragments [mm]", "volume in smaller ones [%]")
     axes.set_ylim(0.0, 105.0)
     return figure
 
@@ -89,7 +89,7 @@ def sizes(pairs: Pairs) -> Any:
 def cracks(run: Run) -> Any:
     """Draw the bonds broken by each mode, stacked over strain or time."""
     over_strain = has_compression(run)
-    figure, (axes,) = _new_axes(1)
+    figure, (axes,) = new_axes(1)
     time = np.linspace(0.0, float(np.max(run.curves["time_s"], initial=run.cracks["time"].max())), MOST_ROWS)
     shown = np.unique(run.cracks["mode"])
     counts = [np.searchsorted(np.sort(run.cracks["time"][run.cracks["mode"] == k]), time, "right") for k in shown]
@@ -99,7 +99,7 @@ def cracks(run: Run) -> Any:
     colours = [COLOURS[k % len(COLOURS)] for k in shown]
     areas = axes.stackplot(x, *counts, colors=colours, alpha=0.85, linewidth=0.0)
     axes.legend(areas[::-1], [printable(run.crack_modes[k]) for k in shown][::-1], loc="upper left")
-    _finish(axes, label, "bonds broken")
+    finish(axes, label, "bonds broken")
     return figure
 
 
@@ -107,20 +107,3 @@ def _on_one_axis(times: Sequence[NDArray[np.float64]]) -> tuple[list[NDArray[np.
     """Return times in one unit, and the label of their axis."""
     together, label = time_axis(np.concatenate(times))
     return np.split(together, np.cumsum([len(each) for each in times])[:-1]), label
-
-
-def _new_axes(rows: int) -> tuple[Any, Any]:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(6.2, 4.9 if rows > 1 else 3.8), layout="constrained")
-    return figure, figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-
-
-def _finish(axes: Any, x: str, y: str) -> None:
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
-    axes.margins(x=0.0)
-    axes.set_xlim(left=0.0)
-    axes.set_ylim(bottom=0.0)
-    axes.grid(**GRID)
-    axes.set_axisbelow(True)

@@ -11,7 +11,8 @@ from clast_viz.report import words
 from clast_viz.report.links import Link, address, data_address, links
 from clast_viz.report.opened import Opened
 from clast_viz.report.parameters import MISSING, Row, differences, sections
-from clast_viz.report.sections import chart_sections, members
+from clast_viz.report.section import members
+from clast_viz.report.sections import chart_sections
 
 TEMPLATE = "runs.html"
 

@@ -2,87 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import count
-from typing import Any, NamedTuple
 
 import numpy as np
-from markupsafe import Markup
 
 from clast.errors import RunError
 from clast.results.curves import energies
 from clast.results.run import Run
-from clast_viz.compare import Line, line_style
+from clast_viz.compare import Line
 from clast_viz.curves import has_compression
 from clast_viz.energy import closing, unit_of
 from clast_viz.report import charts
+from clast_viz.report.grain_section import grain_section
 from clast_viz.report.pieces import Pieces, pieces
-from clast_viz.report.svg import inline_svg
-
-
-class Chart(NamedTuple):
-    """A drawing, what stands over it, and what under it."""
-
-    title: str
-    svg: Markup
-    caption: str
-
-
-@dataclass
-class Section:
-    """Part of a page.
-
-    Attributes
-    ----------
-    title : str
-    charts : list of Chart
-    notes : list of str
-        Why something is not drawn.
-    overlaid : bool
-        Whether the lines of several runs lie over each other, so that a reader needs to know which is whose.
-    head, table : sequences
-        A table under the charts; the first cell of each row names it.
-    """
-
-    title: str
-    charts: list[Chart] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-    overlaid: bool = False
-    head: Sequence[str] = ()
-    table: Sequence[Sequence[str]] = ()
-
-    @property
-    def anchor(self) -> str:
-        """Name to link to."""
-        return self.title.lower().replace(" ", "-")
-
-
-class Member(NamedTuple):
-    """A run of the report that can be read, its label, and how its lines are drawn."""
-
-    run: Run
-    label: str
-    style: dict[str, str]
-
-
-class Drawer:
-    """Draws charts whose ids differ."""
-
-    def __init__(self) -> None:
-        self._numbers = count(1)
-
-    def __call__(self, title: str, draw: Callable[[], Any], caption: str = "") -> Chart:
-        """Draw one."""
-        return Chart(title, inline_svg(draw, title, f"chart{next(self._numbers)}"), caption)
-
-
-def members(readable: Sequence[tuple[Run, str]]) -> list[Member]:
-    """Give every run its line: a run alone is drawn as its own figures draw it."""
-    if len(readable) == 1:
-        return [Member(*readable[0], charts.SINGLE)]
-    return [Member(run, label, line_style(k)) for k, (run, label) in enumerate(readable)]
+from clast_viz.report.section import Drawer, Member, Section, left_out
 
 
 def chart_sections(runs: Sequence[Member]) -> Iterator[Section]:
@@ -93,6 +27,9 @@ def chart_sections(runs: Sequence[Member]) -> Iterator[Section]:
         yield _fragments(runs, draw)
         yield _energy(runs, draw)
         yield _cracks(runs, draw)
+        grains = grain_section(runs, draw)
+        if grains is not None:
+            yield grains
 
 
 def _curves(runs: Sequence[Member], draw: Drawer) -> Section:
@@ -102,7 +39,7 @@ def _curves(runs: Sequence[Member], draw: Drawer) -> Section:
     if pressed:
         lines = partial(charts.stress_strain, _lines(pressed))
         section.charts.append(draw("Stress and bonds broken over strain", lines))
-    section.notes += _left_out(
+    section.notes += left_out(
         others, runs, "no stress–strain curve, as the scene has no compression, or no two samples were taken"
     )
     bonded = [m for m in others if len(m.run.bond_ends) and len(m.run.curves["time_s"]) > 1]
@@ -113,14 +50,6 @@ def _curves(runs: Sequence[Member], draw: Drawer) -> Section:
 
 def _lines(runs: Sequence[Member]) -> list[Line]:
     return [Line(member.run, "", member.style) for member in runs]  # the page itself has the legend
-
-
-def _left_out(without: Sequence[Member], runs: Sequence[Member], why: str) -> list[str]:
-    """Return the sentence about runs that a chart does not show, by name where there are others."""
-    if not without:
-        return []
-    names = ", ".join(member.label for member in without)
-    return [f"{why[0].upper()}{why[1:]}." if len(runs) == 1 else f"{names}: {why}."]
 
 
 def _fragments(runs: Sequence[Member], draw: Drawer) -> Section:
@@ -135,7 +64,7 @@ def _fragments(runs: Sequence[Member], draw: Drawer) -> Section:
         if of_run is not None:
             found.append((member, of_run))
     without = [member for member in runs if not (len(member.run.bond_ends) and member.run.n_frames)]
-    section.notes += _left_out(without, runs, "no fragments, as there are no bonds or no frames were kept")
+    section.notes += left_out(without, runs, "no fragments, as there are no bonds or no frames were kept")
     followed = [(each, of_run) for each, of_run in found if len(of_run.time) > 1]
     for over_strain in (True, False):
         alike = [(of_run, each.style) for each, of_run in followed if has_compression(each.run) == over_strain]
@@ -158,16 +87,16 @@ def _energy(runs: Sequence[Member], draw: Drawer) -> Section:
         caption = f"Nothing is computed as the rest: {closing(energies(member.run.curves))}."
         section.charts.append(draw(title, partial(charts.energy, member.run), caption))
     off = [member for member in runs if member not in booked]
-    section.notes += _left_out(off, runs, "no energies, as the ledger was off (output.ledger: true books them)")
+    section.notes += left_out(off, runs, "no energies, as the ledger was off (output.ledger: true books them)")
     begun = [member for member in booked if member not in drawn]
-    section.notes += _left_out(begun, runs, "no energies, as no two samples were taken")
+    section.notes += left_out(begun, runs, "no energies, as no two samples were taken")
     return section
 
 
 def _cracks(runs: Sequence[Member], draw: Drawer) -> Section:
     section = Section("Cracks")
     broken = [member for member in runs if len(member.run.cracks["mode"])]
-    section.notes += _left_out([m for m in runs if m not in broken], runs, "no bond broke")
+    section.notes += left_out([m for m in runs if m not in broken], runs, "no bond broke")
     for member in broken:
         title = "Bonds broken, by mode" + (f": {member.label}" if len(runs) > 1 else "")
         section.charts.append(draw(title, partial(charts.cracks, member.run)))
