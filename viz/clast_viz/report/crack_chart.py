@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,13 @@ CAPTION = (
 RADII = 5
 
 
-def crack_chart(shown: Shown) -> Any:
-    """Draw the rate of cracks, and where they were; the run must have some."""
+def most_in_one_place(shown: Sequence[Shown]) -> int:
+    """Return the largest number in any map of some runs: the end of a scale that suits all of them."""
+    return max(int(max(each.found.cracks.by_height.max(), each.found.cracks.by_radius.max())) for each in shown)
+
+
+def crack_chart(shown: Shown, most: int) -> Any:
+    """Draw the rate of cracks, and where they were, on a scale up to ``most``; the run must have some."""
     from matplotlib.figure import Figure
 
     cracks = shown.found.cracks
@@ -29,7 +35,6 @@ def crack_chart(shown: Shown) -> Any:
     rate, high, far = figure.subplots(3, 1, sharex=True, height_ratios=[1.0, 1.7, 1.7])
     rate.stairs(cracks.rate / factor, x, color=COLOUR, fill=True, alpha=0.75)
     finish(rate, "", f"bonds per {label.split()[1].strip('[]')}")
-    most = int(max(cracks.by_height.max(), cracks.by_radius.max()))
     _draw_map(high, cracks.by_height, (x[0], x[-1], 0.0, 1e3 * cracks.height_edges[-1]), most)
     high.set_ylabel("height [mm]")
     image = _draw_map(far, cracks.by_radius, (x[0], x[-1], 0.0, 1.0), most)
@@ -56,7 +61,7 @@ def _draw_map(axes: Any, counts: NDArray[np.int64], extent: tuple[float, float, 
         aspect="auto",
         interpolation="none",
         vmin=0.0,
-        vmax=max(most, 1),
+        vmax=most,
     )
 
 

@@ -38,6 +38,8 @@ def grain_section(runs: Sequence[Member], draw: Drawer) -> Section | None:
             shown.append(Shown(analyse(member.run), member.run, member.label, member.style))
         except RunError as error:
             section.notes.append(str(error))
+    if len(shown) > 1:
+        section.notes.append("Thin faint lines: at the start. Full lines: at the end.")
     if shown:
         _draw_all(shown, draw, section)
         section.head = ["", *(each.label if len(shown) > 1 else "at the start → at the end" for each in shown)]
@@ -51,10 +53,11 @@ def _draw_all(shown: Sequence[Shown], draw: Drawer, section: Section) -> None:
     if followed:
         bulk = partial(grain_charts.bulk, followed)
         section.charts.append(draw("Stress, and what becomes of the grains", bulk, BROKEN))
-    for each in shown:
-        if len(each.run.cracks["bond"]):
-            title = "Where and when bonds broke" + (f": {each.label}" if several else "")
-            section.charts.append(draw(title, partial(crack_chart.crack_chart, each), crack_chart.CAPTION))
+    cracked = [each for each in shown if len(each.run.cracks["bond"])]
+    for each in cracked:
+        title = "Where and when bonds broke" + (f": {each.label}" if several else "")
+        chart = partial(crack_chart.crack_chart, each, crack_chart.most_in_one_place(cracked))
+        section.charts.append(draw(title, chart, crack_chart.CAPTION))
     section.charts.append(draw("Grading by mass", partial(grain_charts.gradings, shown), SIZES))
     section.charts.append(draw("Bonds broken per grain", partial(grain_charts.damages, shown)))
     tubes = [each for each in shown if each.found.bed.tube is not None]

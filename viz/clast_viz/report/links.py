@@ -16,6 +16,7 @@ FILES = {
     "curves.csv": "curves as a table",
     "summary.json": "summary",
     "config.yaml": "the scene as run",
+    "grains/history.csv": "grains over strain; more tables lie beside it",
     "tracks_particles.csv": "tracks of particles",
     "tracks_bonds.csv": "tracks of bonds",
 }
