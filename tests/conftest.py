@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,6 +21,15 @@ def loops_compiled_here() -> int:
     """Count the step loops that this process compiled, not those it found on disk."""
     names = [name for name in sys.modules if name.startswith("clast_kernel_") and name.endswith(".step_loop")]
     return sum(sum(sys.modules[name].advance.stats.cache_misses.values()) for name in names)
+
+
+@pytest.fixture(scope="session")
+def bed_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder ``runs/bed`` of twelve grains that were crushed in a tube; to be read, not written."""
+    from clast import load, run_scene
+
+    scene = load(Path(__file__).parent / "core" / "granular" / "bed.yaml")
+    return run_scene(scene, tmp_path_factory.mktemp("beds") / "runs" / "bed").folder
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:

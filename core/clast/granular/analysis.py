@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.errors import RunError
 from clast.granular.bed import Bed, bed_of
 from clast.granular.breakage import einav, hardin
 from clast.granular.coordination import TOLERANCE, coordination_numbers, touching_bodies
@@ -120,6 +121,8 @@ class _Eye:
         """Look at frame ``k``."""
         run, frame = self.run, self.run.frame(k)
         found = pieces_in(run, self.grains, frame)
+        if not found.count:
+            raise RunError(f"{run.folder}: frame {k}: all grains have left the domain, so there is nothing to look at")
         lost = self.broken & ~frame.bond_intact
         return _Look(
             frame=frame,

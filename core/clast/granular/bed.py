@@ -103,4 +103,5 @@ def _as_tube(bed: Bed, wall: WallMesh) -> Bed | None:
 
 def _holds_all(tube: Bed, run: Run) -> bool:
     assert tube.tube is not None
-    return bool(np.nanmax(tube.distances(run.frame(0).position.astype(np.float64))) < tube.tube)
+    distance = tube.distances(run.frame(0).position.astype(np.float64))
+    return not (distance >= tube.tube).any()

@@ -43,7 +43,7 @@ def below_plane(height: Floats, radius: Floats, plane: float) -> Floats:
     return np.asarray(np.pi * cap**2 * (3.0 * radius - cap) / 3.0)
 
 
-def slab_volumes(height: Floats, radius: Floats, edges: Floats, weight: Floats | float = 1.0) -> Floats:
+def slab_volumes(height: Floats, radius: Floats, edges: Floats, weight: Floats | None = None) -> Floats:
     """Return the volume of spheres in each slab between neighbouring edges in m³; the outermost slabs reach on.
 
     Parameters
@@ -52,12 +52,12 @@ def slab_volumes(height: Floats, radius: Floats, edges: Floats, weight: Floats |
         Of the spheres in m.
     edges : (b + 1,) float64
         Heights of the planes, rising, in m.
-    weight : (n,) float64 or float
-        Factor on the volume of each sphere.
+    weight : (n,) or (n, k) float64, optional
+        Factors on the volume of each sphere; with ``k`` columns the result has as many.
 
     Returns
     -------
-    (b,) float64
+    (b,) or (b, k) float64
         They add up to the volume of all spheres: what lies beyond the first and the last edge counts in their slabs.
 
     Examples
@@ -68,7 +68,7 @@ def slab_volumes(height: Floats, radius: Floats, edges: Floats, weight: Floats |
     return _between(below_plane, height, radius, edges, weight)
 
 
-def shell_volumes(distance: Floats, radius: Floats, edges: Floats, weight: Floats | float = 1.0) -> Floats:
+def shell_volumes(distance: Floats, radius: Floats, edges: Floats, weight: Floats | None = None) -> Floats:
     """Return the volume of spheres in each shell between tubes about one axis in m³; the outermost shell reaches on.
 
     Parameters
@@ -77,12 +77,12 @@ def shell_volumes(distance: Floats, radius: Floats, edges: Floats, weight: Float
         Distances of the centres from the axis and radii in m.
     edges : (b + 1,) float64
         Radii of the tubes, rising from 0, in m.
-    weight : (n,) float64 or float
-        Factor on the volume of each sphere.
+    weight : (n,) or (n, k) float64, optional
+        Factors on the volume of each sphere; with ``k`` columns the result has as many.
 
     Returns
     -------
-    (b,) float64
+    (b,) or (b, k) float64
         They add up to the volume of all spheres.
     """
     return _between(inside_tube, distance, radius, edges, weight)
@@ -126,7 +126,7 @@ def _shared_area(radius: Floats, distance: Floats, tube: float) -> Floats:
     """Return the area that circles share with one of the radius ``tube``."""
     small = np.minimum(radius, tube)
     apart, within = distance >= radius + tube, distance <= np.abs(tube - radius)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         a = (distance**2 + radius**2 - tube**2) / (2.0 * distance * radius)
         b = (distance**2 + tube**2 - radius**2) / (2.0 * distance * tube)
     product = (radius + tube - distance) * (distance + radius - tube) * (distance - radius + tube)
@@ -135,16 +135,17 @@ def _shared_area(radius: Floats, distance: Floats, tube: float) -> Floats:
     return np.asarray(np.where(apart, 0.0, np.where(within, np.pi * small**2, lens)))
 
 
-def _between(inside: Inside, place: Floats, radius: Floats, edges: Floats, weight: Floats | float) -> Floats:
+def _between(inside: Inside, place: Floats, radius: Floats, edges: Floats, weight: Floats | None) -> Floats:
     """Return what lies between edges, asking for the parts of those spheres only that an edge may cut."""
-    weights = np.broadcast_to(np.asarray(weight, float), place.shape)
     order = np.argsort(place, kind="stable")
-    place, radius, weights = place[order], radius[order], weights[order]
-    whole = np.concatenate([[0.0], np.cumsum(weights * sphere_volumes(radius))])
+    place, radius = place[order], radius[order]
+    weights = np.ones(len(place)) if weight is None else weight[order]
+    of_all = np.cumsum((weights.T * sphere_volumes(radius)).T, axis=0)
+    whole = np.concatenate([np.zeros_like(weights[:1]), of_all])
     reach = float(radius.max(initial=0.0))
-    total = [0.0]
+    total = [whole[0]]
     for edge in edges[1:-1].tolist():
         first, last = np.searchsorted(place, [edge - reach, edge + reach])
         cut = slice(int(first), int(last))
-        total.append(float(whole[first] + weights[cut] @ inside(place[cut], radius[cut], edge)))
-    return np.diff([*total, float(whole[-1])])
+        total.append(whole[first] + inside(place[cut], radius[cut], edge) @ weights[cut])
+    return np.diff([*total, whole[-1]], axis=0)

@@ -65,6 +65,11 @@ class Packed:
     low: float
     high: float
 
+    @property
+    def weights(self) -> Floats:
+        """Factors that give the solid volume, and the envelope volume, (n, 2)."""
+        return np.column_stack([np.ones(len(self.porous)), self.porous])
+
 
 def packed(bed: Bed, grains: Grains, found: Pieces, position: Floats, extent: tuple[float, float]) -> Packed:
     """Return the primaries of a frame in the coordinates of the bed; loose particles fill room without pores."""
@@ -94,8 +99,7 @@ def over_height(of: Packed, tube: float | None, bins: int, where: Floats, pairs:
     """
     edges = np.linspace(of.low, of.high, bins + 1)
     room = np.diff(edges) * (np.nan if tube is None else np.pi * tube**2)
-    solid = slab_volumes(of.height, of.radius, edges) / room
-    envelope = slab_volumes(of.height, of.radius, edges, of.porous) / room
+    solid, envelope = slab_volumes(of.height, of.radius, edges, of.weights).T / room
     return Profile(edges, solid, envelope, _means(where, edges, pairs))
 
 
@@ -103,8 +107,7 @@ def over_radius(of: Packed, tube: float, bins: int, where: Floats, pairs: Ints) 
     """Return the profile over the distance from the axis of a bed in a tube; ``where`` are distances of grains."""
     edges = np.linspace(0.0, tube, bins + 1)
     room = np.pi * np.diff(edges**2) * (of.high - of.low)
-    solid = shell_volumes(of.distance, of.radius, edges) / room
-    envelope = shell_volumes(of.distance, of.radius, edges, of.porous) / room
+    solid, envelope = shell_volumes(of.distance, of.radius, edges, of.weights).T / room
     return Profile(edges, solid, envelope, _means(where, edges, pairs))
 
 

@@ -180,7 +180,8 @@ def near_wall(shown: Sequence[Shown]) -> Any:
 def coordination(shown: Sequence[Shown]) -> Any:
     """Draw which share of the grains touches how many others."""
     figure, (axes,) = new_axes(1)
-    most = max(int(moment.coordination.max()) for each in shown for moment in each.found.moments)
+    numbers = [int(moment.coordination.max()) for each in shown for moment in each.found.moments]
+    most = max(1, *numbers)
     edges = np.arange(most + 2) - 0.5
     for curve in curves(shown, ends_only=True):
         number = curve.moment.coordination
