@@ -70,6 +70,16 @@ def test_the_parts_of_the_page_do_what_they_promise(tmp_path):
     assert stress[softens] == pytest.approx(100e6 * 0.001 * (0.004 - strain[softens]) / 0.003, rel=1e-9)
 
 
+def test_the_page_on_beds_shows_python_that_runs(bed_folder, monkeypatch, capsys):
+    monkeypatch.chdir(bed_folder.parents[1])
+    (code,) = blocks(DOCS / "granular.md", "python")
+    exec(compile(code, "granular.md", "exec"), {})
+    told = capsys.readouterr().out
+    assert told.count("% strain: ") == 3
+    with clast.open_run(bed_folder) as run:
+        assert f"{len(run.cracks['bond'])} cracks in (24, 24)" in told
+
+
 def test_every_link_between_pages_leads_somewhere():
     pages = [ROOT / "README.md", ROOT / "CHANGELOG.md", *DOCS.rglob("*.md")]
     for page in pages:

@@ -195,6 +195,20 @@ def coordination(shown: Sequence[Shown]) -> Any:
     return figure
 
 
+def coordination_over_height(shown: Sequence[Shown]) -> Any:
+    """Draw the mean coordination number of the grains whose centres lie in a slab, over the height of the bed."""
+    figure, (axes,) = new_axes(1)
+    for curve in curves(shown, ends_only=True):
+        profile = curve.moment.height
+        there = np.isfinite(profile.coordination)
+        style = {"linewidth": 1.3, "marker": "o", "markersize": 4.0} | curve.style
+        axes.plot(profile.coordination[there], 1e3 * profile.middles[there], label=curve.label, **style)
+    finish(axes, "coordination number", "height [mm]")
+    axes.set_xlim(0.0, 1.05 * max(axes.dataLim.x1, 1.0))
+    _legend_above(axes, 3)
+    return figure
+
+
 def _mixed(share: float) -> Any:
     from matplotlib.colors import LinearSegmentedColormap
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from clast.errors import RunError
 from clast.granular.analysis import Granular, analyse
+from clast.granular.coordination import TOLERANCE
 from clast.granular.damage import CRUSHED, DAMAGED, INTACT
 from clast_viz.report import crack_chart, grain_charts
 from clast_viz.report.grain_charts import Shown
@@ -23,6 +24,8 @@ BROKEN = (
     "Damaged: bonds broke, but at least half hangs together. Intact: no bond broke."
 )
 FILLED = "Filled by primaries (solid line), and by fragments with their pores (dashed), overlaps not subtracted."
+
+TOUCHING = f"Grains touch where primaries of both are at most {100.0 * TOLERANCE:g} % of a primary's diameter apart."
 
 
 def grain_section(runs: Sequence[Member], draw: Drawer) -> Section | None:
@@ -64,7 +67,9 @@ def _draw_all(shown: Sequence[Shown], draw: Drawer, section: Section) -> None:
     if tubes:
         section.charts.append(draw("Solid fraction over the height", partial(grain_charts.over_height, tubes), FILLED))
         section.charts.append(draw("Solid fraction near the wall", partial(grain_charts.near_wall, tubes), FILLED))
-    section.charts.append(draw("Grains in contact with a grain", partial(grain_charts.coordination, shown)))
+    section.charts.append(draw("Grains in contact with a grain", partial(grain_charts.coordination, shown), TOUCHING))
+    over_height = partial(grain_charts.coordination_over_height, shown)
+    section.charts.append(draw("Coordination number over the height", over_height))
     beds = [Member(each.run, each.label, each.style) for each in shown]
     free = [bed for bed, each in zip(beds, shown, strict=True) if each.found.bed.tube is None]
     section.notes += left_out(free, beds, "no porosities and solid fractions, as no tube holds the bed")
