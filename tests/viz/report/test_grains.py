@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import h5py
 import pytest
 import yaml
 from click.testing import CliRunner
@@ -61,8 +62,6 @@ def test_runs_of_one_grain_or_of_loose_particles_have_no_such_section(tmp_path: 
 
 
 def test_a_bed_that_is_not_in_a_tube_and_one_that_cannot_be_looked_at_say_so(bed: Path) -> None:
-    import h5py
-
     with h5py.File(bed / "results.h5", "r+") as file:
         del file["walls/tube"]
     page = page_of(bed)
@@ -71,6 +70,30 @@ def test_a_bed_that_is_not_in_a_tube_and_one_that_cannot_be_looked_at_say_so(bed
     config = yaml.safe_load((bed / "config.yaml").read_text())
     (bed / "config.yaml").write_text(yaml.safe_dump({"name": config["name"]}))
     assert "does not tell the densities of glass, steel" in page_of(bed).text
+
+
+def test_a_bed_without_a_compression_is_drawn_over_time(bed: Path, tmp_path: Path) -> None:
+    with h5py.File(bed / "results.h5", "r+") as file:
+        for name in ("strain", "stress_Pa"):
+            del file[f"curves/{name}"]
+        last = 1e3 * file["frames/time"][-1]
+    config = yaml.safe_load((bed / "config.yaml").read_text())
+    (bed / "config.yaml").write_text(yaml.safe_dump(config | {"compression": None}))
+    page = page_of(bed)
+    assert f"{last:.3g} ms" in page.text
+    assert "bonds per ms" in page.text
+    assert "strain [%]" not in page.text
+
+
+def test_a_bed_of_which_one_frame_was_kept_has_no_course_but_a_grading(bed: Path, tmp_path: Path) -> None:
+    with h5py.File(bed / "results.h5", "r+") as file:
+        for data in file["frames"].values():
+            data.resize(1, axis=0)
+    for folders in ([bed], [bed, shutil.copytree(bed, tmp_path / "other")]):
+        page = page_of(*folders, "-o", str(tmp_path / "page.html"))
+        assert "What becomes of the grains" not in page.text
+        assert "Grading by mass" in page.text
+        assert page.rows["d50"][-1] == "0.94 mm → 0.94 mm"
 
 
 def test_the_tables_are_written_by_a_writer(bed: Path) -> None:

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast_viz.curves import time_axis
 
 GRID = {"color": "#e4e7eb", "linewidth": 0.7}
 HEIGHTS = {1: 3.8, 2: 4.9, 3: 6.0}
@@ -26,3 +32,9 @@ def finish(axes: Any, x: str, y: str) -> None:
     axes.set_ylim(bottom=0.0)
     axes.grid(**GRID)
     axes.set_axisbelow(True)
+
+
+def on_one_axis(times: Sequence[NDArray[np.float64]]) -> tuple[list[NDArray[np.float64]], str]:
+    """Return times in one unit, and the label of their axis."""
+    together, label = time_axis(np.concatenate(times))
+    return np.split(together, np.cumsum([len(each) for each in times])[:-1]), label

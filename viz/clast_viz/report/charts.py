@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from clast.results.curves import energies
 from clast.results.run import Reference, Run
@@ -15,7 +14,7 @@ from clast_viz.compare import COLOURS, Line, comparison_figure
 from clast_viz.curves import has_compression, time_axis
 from clast_viz.energy import energy_axis, energy_figure
 from clast_viz.figure import CURVE_COLOUR, stress_strain_figure
-from clast_viz.report.axes import finish, new_axes
+from clast_viz.report.axes import finish, new_axes, on_one_axis
 from clast_viz.report.pieces import Pieces
 from clast_viz.report.printable import printable
 
@@ -43,7 +42,7 @@ def stress_strain(lines: Sequence[Line]) -> Any:
 def bonds_over_time(lines: Sequence[Line]) -> Any:
     """Draw the bonds broken over time, of runs without a compression."""
     figure, (axes,) = new_axes(1)
-    times, label = _on_one_axis([line.run.curves["time_s"] for line in lines])
+    times, label = on_one_axis([line.run.curves["time_s"] for line in lines])
     for line, time in zip(lines, times, strict=True):
         axes.plot(time, line.run.curves["bonds_broken"], linewidth=1.4, **line.style)
     finish(axes, label, "bonds broken")
@@ -60,7 +59,7 @@ def energy(run: Run) -> Any:
 def fragments(pairs: Pairs, over_strain: bool) -> Any:
     """Draw how many fragments there are and what share the largest holds, over strain or time."""
     figure, (upper, lower) = new_axes(2)
-    times, label = _on_one_axis([found.time for found, _ in pairs])
+    times, label = on_one_axis([found.time for found, _ in pairs])
     for (found, style), time in zip(pairs, times, strict=True):
         x = 100.0 * found.strain if over_strain else time
         upper.plot(x, found.count, linewidth=1.5, **style)
@@ -101,9 +100,3 @@ def cracks(run: Run) -> Any:
     axes.legend(areas[::-1], [printable(run.crack_modes[k]) for k in shown][::-1], loc="upper left")
     finish(axes, label, "bonds broken")
     return figure
-
-
-def _on_one_axis(times: Sequence[NDArray[np.float64]]) -> tuple[list[NDArray[np.float64]], str]:
-    """Return times in one unit, and the label of their axis."""
-    together, label = time_axis(np.concatenate(times))
-    return np.split(together, np.cumsum([len(each) for each in times])[:-1]), label

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast_viz.curves import time_axis
 from clast_viz.report.axes import finish
 from clast_viz.report.grain_charts import Shown
 
@@ -29,11 +30,10 @@ def crack_chart(shown: Shown, most: int) -> Any:
     from matplotlib.figure import Figure
 
     cracks = shown.found.cracks
-    factor, label = (100.0, "strain [%]") if cracks.over == "strain" else (1.0, "time [s]")
-    x = factor * cracks.edges
+    x, label = (100.0 * cracks.edges, "strain [%]") if cracks.over == "strain" else time_axis(cracks.edges)
     figure: Any = Figure(figsize=(6.2, 5.6), layout="constrained")
     rate, high, far = figure.subplots(3, 1, sharex=True, height_ratios=[1.0, 1.7, 1.7])
-    rate.stairs(cracks.rate / factor, x, color=COLOUR, fill=True, alpha=0.75)
+    rate.stairs(cracks.total / np.diff(x), x, color=COLOUR, fill=True, alpha=0.75)
     finish(rate, "", f"bonds per {label.split()[1].strip('[]')}")
     _draw_map(high, cracks.by_height, (x[0], x[-1], 0.0, 1e3 * cracks.height_edges[-1]), most)
     high.set_ylabel("height [mm]")

@@ -13,7 +13,7 @@ from clast.granular.breakage import ultimate_finer
 from clast.granular.damage import CRUSHED, DAMAGED, INTACT
 from clast.results.run import Run
 from clast_viz.curves import has_compression, time_axis
-from clast_viz.report.axes import finish, new_axes
+from clast_viz.report.axes import finish, new_axes, on_one_axis
 
 Floats = NDArray[np.float64]
 STATE_COLOURS = {INTACT: "#b9c3ce", DAMAGED: "#f0a04b", CRUSHED: "#b2182b"}
@@ -58,38 +58,41 @@ def moment_name(run: Run, moment: Moment) -> str:
     """Return when a moment was, as a legend says it."""
     if has_compression(run):
         return f"{100.0 * moment.strain:.1f} % strain"
-    (time,), label = time_axis(np.array([moment.time]))
+    (time, _), label = time_axis(np.array([moment.time, run.frame_values("time")[-1]]))
     return f"{time:.3g} {label.removeprefix('time [').removesuffix(']')}"
 
 
 def bulk(shown: Sequence[Shown]) -> Any:
-    """Draw the stress, and which share of the grains is intact, damaged and crushed, over strain."""
+    """Draw the stress, or bonds broken where there is none, and which share of the grains is in which state."""
     figure, axes = new_axes(2 if len(shown) == 1 else 3)
     pressed = all(has_compression(each.run) for each in shown)
-    for each in shown:
-        history = each.found.history
-        x = 100.0 * history["strain"] if pressed else history["time_s"]
-        axes[0].plot(*_of_samples(each.run, pressed), linewidth=1.5, **each.style)
+    label, over = _over(shown, pressed)
+    for each, (sampled, seen) in zip(shown, over, strict=True):
+        values = each.run.curves["stress_Pa"] / 1e6 if pressed else each.run.curves["bonds_broken"]
+        axes[0].plot(sampled, values, linewidth=1.5, **each.style)
         if len(shown) == 1:
-            _stack_states(axes[1], x, each.found)
+            _stack_states(axes[1], seen, each.found)
         else:
-            axes[1].plot(x, 100.0 * history["grains_crushed"] / each.found.grains.count, linewidth=1.5, **each.style)
-            axes[2].plot(x, 100.0 * history["damage"], linewidth=1.5, **each.style)
+            crushed = each.found.history["grains_crushed"] / each.found.grains.count
+            axes[1].plot(seen, 100.0 * crushed, linewidth=1.5, **each.style)
+            axes[2].plot(seen, 100.0 * each.found.history["damage"], linewidth=1.5, **each.style)
     finish(axes[0], "", "stress [MPa]" if pressed else "bonds broken")
     names = ["grains [%]"] if len(shown) == 1 else ["grains crushed [%]", "bonds broken [%]"]
     for k, name in enumerate(names, start=1):
-        last = k == len(names)
-        finish(axes[k], ("strain [%]" if pressed else "time [s]") if last else "", name)
+        finish(axes[k], label if k == len(names) else "", name)
         axes[k].set_ylim(0.0, 100.0 if len(shown) == 1 else None)
     figure.align_ylabels()
     return figure
 
 
-def _of_samples(run: Run, pressed: bool) -> tuple[Floats, Floats]:
-    """Return stress over strain, or where runs have no compression, bonds broken over time."""
+def _over(shown: Sequence[Shown], pressed: bool) -> tuple[str, list[tuple[Floats, Floats]]]:
+    """Return the label of the x axis and, for each run, the places of its samples and of its frames on it."""
     if pressed:
-        return 100.0 * run.curves["strain"], run.curves["stress_Pa"] / 1e6
-    return run.curves["time_s"], run.curves["bonds_broken"]
+        places = [(100.0 * each.run.curves["strain"], 100.0 * each.found.history["strain"]) for each in shown]
+        return "strain [%]", places
+    times = [times for each in shown for times in (each.run.curves["time_s"], each.found.history["time_s"])]
+    times, label = on_one_axis(times)
+    return label, list(zip(times[::2], times[1::2], strict=True))
 
 
 def _stack_states(axes: Any, x: Floats, found: Granular) -> None:
@@ -104,7 +107,8 @@ def gradings(shown: Sequence[Shown]) -> Any:
     """Draw which share of the mass is in finer fragments, and the ultimate grading after Einav."""
     figure, (axes,) = new_axes(1)
     sizes = np.concatenate([moment.grading.size for each in shown for moment in each.found.moments])
-    ends = 1e3 * np.array([0.92 * sizes.min(), 1.08 * sizes.max()])
+    least = min(sizes.min(), *(each.found.smallest for each in shown))
+    ends = 1e3 * np.array([0.92 * least, 1.08 * sizes.max()])
     for curve in curves(shown, ends_only=False):
         size, finer = 1e3 * curve.moment.grading.size, 100.0 * curve.moment.grading.finer
         x, y = np.concatenate([ends[:1], size, ends[1:]]), np.concatenate([[0.0], finer, [100.0]])

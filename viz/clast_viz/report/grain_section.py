@@ -46,7 +46,8 @@ def grain_section(runs: Sequence[Member], draw: Drawer) -> Section | None:
     if shown:
         _draw_all(shown, draw, section)
         section.head = ["", *(each.label if len(shown) > 1 else "at the start → at the end" for each in shown)]
-        section.table = [[name, *(tell(each.found) for each in shown)] for name, tell in ROWS.items()]
+        table = [[name, *(tell(each.found) for each in shown)] for name, tell in ROWS.items()]
+        section.table = [row for row in table if any(row[1:])]
     return section
 
 
@@ -55,7 +56,7 @@ def _draw_all(shown: Sequence[Shown], draw: Drawer, section: Section) -> None:
     followed = [each for each in shown if len(each.found.history["frame"]) > 1]
     if followed:
         bulk = partial(grain_charts.bulk, followed)
-        section.charts.append(draw("Stress, and what becomes of the grains", bulk, BROKEN))
+        section.charts.append(draw("What becomes of the grains", bulk, BROKEN))
     cracked = [each for each in shown if len(each.run.cracks["bond"])]
     for each in cracked:
         title = "Where and when bonds broke" + (f": {each.label}" if several else "")
