@@ -15,7 +15,7 @@ from clast.granular.coordination import TOLERANCE, coordination_numbers, touchin
 from clast.granular.crack_maps import CrackMaps, crack_maps
 from clast.granular.damage import CRUSHED, DAMAGED, INTACT, Damage, damage
 from clast.granular.grading import Grading, grading
-from clast.granular.grains import Grains, grains_of
+from clast.granular.grains import Grains, grains_of, sums
 from clast.granular.pieces import Pieces, pieces_in
 from clast.granular.profiles import Profile, over_height, over_radius, packed
 from clast.results.run import Frame, Run
@@ -181,9 +181,9 @@ class _Eye:
         """Return the centre of mass of what is there of each grain in m, (g, 3); NaN where nothing is."""
         held = (self.run.grain >= 0) & np.isfinite(position[:, 0])
         grain, mass = self.run.grain[held], self.grains.primary_mass[held]
-        sums = [np.bincount(grain, mass * position[held, c], self.grains.count) for c in range(3)]
+        moments = [sums(grain, mass * position[held, c], self.grains.count) for c in range(3)]
         with np.errstate(invalid="ignore"):
-            return np.column_stack(sums) / np.bincount(grain, mass, self.grains.count)[:, None]
+            return np.column_stack(moments) / sums(grain, mass, self.grains.count)[:, None]
 
 
 def analyse(

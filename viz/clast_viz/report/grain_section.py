@@ -24,7 +24,6 @@ BROKEN = (
     "Damaged: bonds broke, but at least half hangs together. Intact: no bond broke."
 )
 FILLED = "Filled by primaries (solid line), and by fragments with their pores (dashed), overlaps not subtracted."
-
 TOUCHING = f"Grains touch where primaries of both are at most {100.0 * TOLERANCE:g} % of a primary's diameter apart."
 
 
