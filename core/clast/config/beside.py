@@ -23,6 +23,11 @@ class WallChoice:
     material: str
     motion: Chosen | None
 
+    @property
+    def flat(self) -> bool:
+        """Whether what presses on it is a component of the force on it."""
+        return bool(self.shape.part.flat(self.shape.params))
+
     def plain(self) -> dict[str, Any]:
         """Give the wall as the scene file would have it."""
         motion = {"motion": self.motion.plain()} if self.motion is not None else {}

@@ -77,7 +77,8 @@ class Blueprint:
     """Everything the assembler needs to know; run-time numbers are not part of it.
 
     ``applied_loads`` is whether a constant force or torque acts on some particle, ``ledger`` whether energies are
-    booked, ``chunked`` whether the scene is cut into chunks that threads can share.
+    booked, ``chunked`` whether the scene is cut into chunks that threads can share, ``curved_walls`` whether some wall
+    is not flat.
     """
 
     integrator: Integrator
@@ -89,6 +90,12 @@ class Blueprint:
     applied_loads: bool = False
     ledger: bool = False
     chunked: bool = False
+    curved_walls: bool = False
+
+    @property
+    def answering(self) -> bool:
+        """Whether some wall answers to the force on it."""
+        return any(motion.answer is not None for motion in self.motions)
 
     @property
     def orientation(self) -> bool:
@@ -151,6 +158,6 @@ class Blueprint:
             found += [self.contacts.law.load, self.contacts.law.energy]
             found += [self.contacts.law.losses] if self.ledger else []
         found += [wall.nearest for wall in self.walls]
-        found += [motion.velocity for motion in self.motions]
+        found += [function for motion in self.motions for function in (motion.velocity, motion.answer)]
         found += [force.acceleration for force in self.body_forces]
         return [function for function in found if function is not None]

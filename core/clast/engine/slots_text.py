@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import accumulate
 from typing import Any
 
 from clast.engine.blueprint import Blueprint, BondPlan
@@ -81,6 +82,8 @@ def _flags(plan: Blueprint) -> str:
         "ONE_SIZE": contacts is None or contacts.one_size,
         "RESTS": contacts is not None and contacts.rests,
         "WALLS": bool(plan.walls),
+        "CURVED_WALLS": plan.curved_walls,
+        "ANSWERING": plan.answering,
         "BODY_FORCES": bool(plan.body_forces),
         "APPLIED_LOADS": plan.applied_loads,
         "LEDGER": plan.ledger,
@@ -99,7 +102,16 @@ def _flags(plan: Blueprint) -> str:
 def _integrator(plan: Blueprint) -> str:
     stages = plan.integrator.stages
     spans = [stages[k].drift_before + stages[k - 1].drift_after for k in range(len(stages))]
-    return f"STAGES = {tuple(stages)!r}\nSPANS = {tuple(spans)!r}\nLAG = {plan.integrator.velocity_lag!r}"
+    drifts = [0.0, *accumulate(stage.drift_before + stage.drift_after for stage in stages)]
+    forces_at = [drifts[k] + stage.drift_before for k, stage in enumerate(stages)]
+    return "\n".join(
+        [
+            f"STAGES = {tuple(stages)!r}",
+            f"SPANS = {tuple(spans)!r}",
+            f"FORCES_AT = {tuple(forces_at)!r}",
+            f"LAG = {plan.integrator.velocity_lag!r}",
+        ]
+    )
 
 
 def _bind(name: str, item: Callable[..., Any] | type | None) -> str:
@@ -264,19 +276,32 @@ def _dispatch(name: str, arguments: str, branches: Sequence[str], otherwise: str
 
 
 def _walls(plan: Blueprint) -> str:
-    lines, near, course = [], [], []
+    lines, near = [], []
     for k, wall in enumerate(plan.walls):
         values = [f"row[{n}]" for n in range(width(wall.Shape))]
         lines += [_bind(f"nearest_{k}", wall.nearest), _bind_record(f"Shape{k}", wall.Shape)]
         near.append(f"nearest_{k}({construct(wall.Shape, f'Shape{k}', values)}, x)")
+    lines.append(_dispatch("wall_nearest", "kind, row, x", near, "None"))
+    return "\n".join([*lines, *_motions(plan)])
+
+
+def _motions(plan: Blueprint) -> list[str]:
+    lines, known, answers = [], [], []
     for k, motion in enumerate(plan.motions):
         values = [f"row[{n}]" for n in range(width(motion.Course))]
-        lines += [_bind(f"velocity_{k}", motion.velocity), _bind_record(f"Course{k}", motion.Course)]
-        course.append(f"velocity_{k}({construct(motion.Course, f'Course{k}', values)}, time)")
-    course.append("ZERO")  # walls without a motion stand still
-    lines.append(_dispatch("wall_nearest", "kind, row, x", near, "None"))
-    lines.append(_dispatch("wall_velocity", "kind, row, time", course, "ZERO"))
-    return "\n".join(lines)
+        lines += [
+            _bind(f"velocity_{k}", motion.velocity),
+            _bind(f"answer_{k}", motion.answer),
+            _bind_record(f"Course{k}", motion.Course),
+        ]
+        course = construct(motion.Course, f"Course{k}", values)
+        known.append(f"velocity_{k}({course}, time)" if motion.velocity else "ZERO")  # what answers begins at rest
+        answers.append(f"answer_{k}({course}, time, pressed)" if motion.answer else known[k])
+    known.append("ZERO")  # walls without a motion stand still
+    answers.append("ZERO")
+    lines.append(_dispatch("wall_velocity", "kind, row, time", known, "ZERO"))
+    lines.append(_dispatch("wall_answer", "kind, row, time, pressed", answers, "ZERO"))
+    return lines
 
 
 def _body(plan: Blueprint) -> str:

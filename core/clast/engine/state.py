@@ -76,7 +76,11 @@ class WallPairs(NamedTuple):
 
 
 class Walls(NamedTuple):
-    """Walls: numbers of shape and motion, where they are, and what acts on them."""
+    """Walls: numbers of shape and motion, where they are, and what acts on them.
+
+    ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
+    flat; ``touching_mass`` (w,) in kg the masses of what touches, where a wall answers to it.
+    """
 
     shape_kind: Integers
     shape: Floats
@@ -91,6 +95,9 @@ class Walls(NamedTuple):
     force_sum: Floats
     moment_sum: Floats
     reference: Floats
+    pressing: Floats
+    pressing_sum: Floats
+    touching_mass: Floats
 
 
 class Cracks(NamedTuple):

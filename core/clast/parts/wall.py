@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.errors import PluginError
 from clast.maths.vec3 import Vec
 from clast.parts.params import Params
 
@@ -26,6 +27,32 @@ class Nearest(NamedTuple):
 
     distance: float
     normal: Vec
+
+
+class Pressed(NamedTuple):
+    """What a wall feels, for motions that answer to it.
+
+    Attributes
+    ----------
+    force : vector
+        Force of the particles on the wall at the last force evaluation in N.
+    mass : float
+        Mass of all particles that touched it then in kg.
+    velocity : vector
+        Velocity with which the wall came there in m/s.
+    span : float
+        Time to the next force evaluation in s: so long the wall keeps the velocity that the motion answers with.
+    """
+
+    force: Vec
+    mass: float
+    velocity: Vec
+    span: float
+
+
+def never(params: Any) -> bool:
+    """Return False, whatever the parameters: what a wall is of which nothing else is known."""
+    return False
 
 
 @dataclass(frozen=True)
@@ -47,6 +74,11 @@ class Wall:
         Point about which the wall's moment is reported.
     mesh : (params, size) -> (points, triangles)
         For pictures: (p, 3) float64 in m and (t, 3) int64; ``size`` in m bounds what is drawn of infinite walls.
+    flat : (params) -> bool, optional
+        Whether all its normals are one, so that what presses on it is a component of the force on it. On other walls
+        forces from opposite sides cancel: there what presses is summed up too.
+    girth : (params) -> float, optional
+        Length in m of the closed line that a tube's inner face is in its cross-section; None for what is no tube.
     """
 
     summary: str
@@ -56,11 +88,16 @@ class Wall:
     nearest: Callable[..., Nearest]
     centre: Callable[[Any], Vec]
     mesh: Callable[[Any, float], tuple[NDArray[np.float64], NDArray[np.int64]]]
+    flat: Callable[[Any], bool] = never
+    girth: Callable[[Any], float] | None = None
 
 
 @dataclass(frozen=True)
 class Motion:
     """The part a plugin registers with ``registry.motion(name, Motion(...))``.
+
+    A motion knows its velocity beforehand, or answers to what presses on the wall: it has either ``velocity`` or
+    ``answer``. From one force evaluation to the next a wall keeps one velocity.
 
     Attributes
     ----------
@@ -71,15 +108,28 @@ class Motion:
     Course : NamedTuple type
         The numbers the compiled loop needs.
     course : (params) -> Course
-    velocity : (course, time) -> vector
+    velocity : (course, time) -> vector, optional
         Velocity of the wall in m/s.
+    answer : (course, time, pressed) -> vector, optional
+        Velocity in m/s of a wall that was :class:`Pressed`; ``time`` in s is in the middle of the span. Before the
+        first force evaluation the wall rests.
+
+    Raises
+    ------
+    PluginError
+        If it has neither or both.
     """
 
     summary: str
     Params: type[Params]
     Course: type
     course: Callable[[Any], Any]
-    velocity: Callable[..., Vec]
+    velocity: Callable[..., Vec] | None = None
+    answer: Callable[..., Vec] | None = None
+
+    def __post_init__(self) -> None:
+        if (self.velocity is None) == (self.answer is None):
+            raise PluginError(f"motion {self.summary!r} needs either 'velocity' or 'answer'")
 
 
 @dataclass(frozen=True)

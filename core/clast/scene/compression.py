@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import ceil, pi
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.state import Walls
+from clast.scene.approach import time_of
 
 Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
@@ -47,7 +49,7 @@ class Gauge:
         return np.asarray(line / length)
 
     def _centre(self, k: int) -> Floats:
-        wall = list(self.config.walls.values())[k].shape
+        wall = self._wall(k).shape
         return np.asarray(wall.part.centre(wall.params), float)
 
     def displacement(self, walls: Walls) -> float:
@@ -83,27 +85,43 @@ class Gauge:
         end = self.config.time.end
         if end.time is not None:
             return end.time
-        assert end.strain is not None
-        return self._time_of(end.strain * self.height)
+        return self._time_of_strain
 
-    def _time_of(self, displacement: float) -> float:
-        """Return when the plates have approached by a displacement, in s."""
-        walls = list(self.config.walls.values())
-        start = self._approach_rate(walls, 0.0)
-        if start <= 0.0:
+    @cached_property
+    def _time_of_strain(self) -> float:
+        """When the plates have approached by the strain at the end, in s."""
+        strain = self.config.time.end.strain
+        assert strain is not None
+        self._refuse_answers()
+        found = time_of(self._approach_rate, strain * self.height)
+        if found.time is None:
+            most = f" by more than the strain {found.distance / self.height:.4g}" if found.distance > 0.0 else ""
             raise self.config.problem(
                 ("time", "end", "strain"),
-                f"the plates do not approach each other; give walls.{self.names[self.upper]}.motion a velocity towards "
-                f"walls.{self.names[self.lower]}",
+                f"the plates do not approach each other{most}; give walls.{self.names[self.upper]}.motion a velocity "
+                f"towards walls.{self.names[self.lower]}",
             )
-        return displacement / start
+        return found.time
 
-    def _approach_rate(self, walls: list[WallChoice], time: float) -> float:
+    def _refuse_answers(self) -> None:
+        for k in (self.upper, self.lower):
+            motion = self._wall(k).motion
+            if motion is not None and motion.part.velocity is None:
+                raise self.config.problem(
+                    ("time", "end", "strain"),
+                    f"walls.{self.names[k]} moves by {motion.name}, in answer to what presses on it, so when it "
+                    "reaches a strain cannot be known beforehand; give time.end.time instead",
+                )
+
+    def _wall(self, k: int) -> WallChoice:
+        return list(self.config.walls.values())[k]
+
+    def _approach_rate(self, time: float) -> float:
         assert self.axis is not None
-        return float((self._velocity(walls[self.lower], time) - self._velocity(walls[self.upper], time)) @ self.axis)
+        return float((self._velocity(self.lower, time) - self._velocity(self.upper, time)) @ self.axis)
 
-    def _velocity(self, wall: WallChoice, time: float) -> Floats:
-        if wall.motion is None:
+    def _velocity(self, k: int, time: float) -> Floats:
+        motion = self._wall(k).motion
+        if motion is None:
             return np.zeros(3)
-        part = wall.motion.part
-        return np.asarray(part.velocity(part.course(wall.motion.params), time))
+        return np.asarray(motion.part.velocity(motion.part.course(motion.params), time))

@@ -32,6 +32,7 @@ def blueprint(scene: Scene) -> Blueprint:
         applied_loads=len(applied_loads(scene)) > 0,
         ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
+        curved_walls=not all(wall.flat for wall in config.walls.values()),
     )
 
 

@@ -156,6 +156,7 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         np.array([names.index(wall.material) for wall in chosen], np.int64),
         np.array(centres, float).reshape(-1, 3),
         *still,
+        *(np.zeros(len(chosen)) for _ in range(3)),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import pi
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
@@ -57,6 +58,11 @@ def centre(params: Cylinder) -> Vec:
     return params.point
 
 
+def girth(params: Cylinder) -> float:
+    """Return the circumference in m."""
+    return 2.0 * pi * params.radius
+
+
 def mesh(params: Cylinder, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return a tube of 96 triangles, ``size`` long on either side of the point."""
     a = np.asarray(shape(params).axis)
@@ -82,5 +88,6 @@ def clast_register(registry: Registry) -> None:
             nearest=nearest,
             centre=centre,
             mesh=mesh,
+            girth=girth,
         ),
     )

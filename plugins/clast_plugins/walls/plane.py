@@ -65,6 +65,11 @@ def centre(params: Plane) -> Vec:
     return params.point
 
 
+def flat(params: Plane) -> bool:
+    """Return whether it is infinite: a plate is touched from both faces and on its rim."""
+    return params.radius is None
+
+
 def mesh(params: Plane, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return a disc of 48 triangles, of the plate's radius or of ``size``."""
     n = np.asarray(shape(params).normal)
@@ -92,5 +97,6 @@ def clast_register(registry: Registry) -> None:
             nearest=nearest,
             centre=centre,
             mesh=mesh,
+            flat=flat,
         ),
     )

@@ -7,6 +7,7 @@ from clast.engine.state import Floats, Numbers, Particles, Walls
 from clast.maths.rotation import turn
 from clast.maths.vec3 import Vec, add, dot, scale
 from clast.parts.integrator import Stage
+from clast.parts.wall import Pressed
 
 from .lanes import put, row, vector
 from .layout import (
@@ -29,12 +30,14 @@ from .layout import (
 )
 from .rows import set_first_half, set_half_row, set_row
 from .slots import (
+    ANSWERING,
     APPLIED_LOADS,
     BODY_FORCES,
     ORIENTATION,
     SPIN,
     VELOCITY_FORCES,
     body_acceleration,
+    wall_answer,
     wall_velocity,
 )
 
@@ -197,15 +200,39 @@ def move_after_forces(
 
 
 @routine
-def move_walls(walls: Walls, time: float, drift_time: float, reach2: float) -> bool:
+def start_walls(walls: Walls, time: float) -> None:
+    """Give the walls the velocities they have before any force is known."""
+    for w in range(len(walls.shape_kind)):
+        v = wall_velocity(walls.motion_kind[w], walls.course[w], time)
+        for c in range(3):
+            walls.velocity[w, c] = v[c]
+
+
+@routine
+def steer_walls(walls: Walls, middle: float, span: float) -> None:
+    """Give the walls the velocities that they keep for ``span`` seconds, to the next force evaluation.
+
+    ``middle`` is the time half-way, in s: there a velocity stands best for the whole span.
+    """
+    for w in range(len(walls.shape_kind)):
+        kind, course = walls.motion_kind[w], walls.course[w]
+        if ANSWERING:
+            pressed = Pressed(row(walls.force, w, 0), walls.touching_mass[w], row(walls.velocity, w, 0), span)
+            v = wall_answer(kind, course, middle, pressed)
+        else:
+            v = wall_velocity(kind, course, middle)
+        for c in range(3):
+            walls.velocity[w, c] = v[c]
+
+
+@routine
+def move_walls(walls: Walls, drift_time: float, reach2: float) -> bool:
     """Move the walls over some time; tell whether one is too far from where its neighbours were searched."""
     stale = False
     for w in range(len(walls.shape_kind)):
-        v = wall_velocity(walls.motion_kind[w], walls.course[w], time)
         away2 = 0.0
         for c in range(3):
-            walls.velocity[w, c] = v[c]
-            walls.displacement[w, c] += drift_time * v[c]
+            walls.displacement[w, c] += drift_time * walls.velocity[w, c]
             away = walls.displacement[w, c] - walls.reference[w, c]
             away2 += away * away
         stale = stale or not away2 <= reach2
@@ -226,6 +253,7 @@ def clear_wall_forces(walls: Walls) -> None:
         for c in range(3):
             walls.force[w, c] = 0.0
             walls.moment[w, c] = 0.0
+        walls.pressing[w] = walls.touching_mass[w] = 0.0
 
 
 @routine
@@ -235,3 +263,4 @@ def sum_wall_forces(walls: Walls) -> None:
         for c in range(3):
             walls.force_sum[w, c] += walls.force[w, c]
             walls.moment_sum[w, c] += walls.moment[w, c]
+        walls.pressing_sum[w] += walls.pressing[w]

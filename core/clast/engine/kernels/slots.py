@@ -9,6 +9,7 @@ from clast.parts.integrator import Stage
 
 STAGES = (Stage(0.0, 0.5, 0.0, 1.0, 0.5),)
 SPANS = (1.0,)  # time since the last force evaluation, as a fraction of the step
+FORCES_AT = (0.5,)  # when forces are evaluated, as a fraction of the step
 LAG = 0.0  # how much later than positions velocities belong at the end of a step, as a fraction of the step
 CHOICES: Any = None
 
@@ -30,6 +31,8 @@ ONE_MATERIAL = True
 ONE_SIZE = True
 RESTS = False
 WALLS = False
+CURVED_WALLS = False
+ANSWERING = False
 BODY_FORCES = False
 APPLIED_LOADS = False
 LEDGER = False
@@ -55,4 +58,4 @@ read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
 contact_load = contact_energy = contact_losses = read_contact_constants = row_constants = nothing
 read_history = write_history = carry_history = fresh_history = load_history = store_history = nothing
-wall_nearest = wall_velocity = body_acceleration = nothing
+wall_nearest = wall_velocity = wall_answer = body_acceleration = nothing

@@ -22,9 +22,11 @@ from .motion import (
     move_after_forces,
     move_before_forces,
     move_walls,
+    start_walls,
+    steer_walls,
     sum_wall_forces,
 )
-from .slots import BONDS, CHUNKED, CONTACTS, SPANS, STAGES, WALLS
+from .slots import BONDS, CHUNKED, CONTACTS, FORCES_AT, SPANS, STAGES, WALLS
 from .wall_sweep import sweep_walls
 
 
@@ -56,6 +58,15 @@ def time_since_forces(clock: Integers, numbers: Numbers) -> float:
 
 
 @inlined
+def until_next_forces(clock: Integers) -> tuple[float, float]:
+    """Return when forces are evaluated now, and the time to their next evaluation, as fractions of the step."""
+    if clock[PRIMED] == 0:
+        return 0.0, STAGES[0].drift_before
+    stage = clock[STAGE]
+    return FORCES_AT[stage], SPANS[(stage + 1) % len(SPANS)]
+
+
+@inlined
 def count_stage(clock: Integers) -> bool:
     """Note that a stage is over; tell whether the step is."""
     clock[MOVED] = 0
@@ -78,7 +89,9 @@ def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage
         moved_on = move_before_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, world.scratch[c])
         world.stale[c] = 1 if moved_on else 0
     if WALLS and first:
-        moved_on = move_walls(world.walls, time, stage.drift_before * numbers.dt, numbers.wall_reach2)
+        if world.clock[PRIMED] == 0:
+            start_walls(world.walls, time)
+        moved_on = move_walls(world.walls, stage.drift_before * numbers.dt, numbers.wall_reach2)
         world.stale[-1] = 1 if moved_on else 0
         book_wall_work(world.walls, span, world.ledger[-1])
         clear_wall_forces(world.walls)
@@ -105,7 +118,10 @@ def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Sta
         scratch, book = world.scratch[c], world.ledger[c]
         move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book, span)
     if WALLS and first:
-        move_walls(world.walls, time, stage.drift_after * numbers.dt, numbers.wall_reach2)
+        at, span_on = until_next_forces(world.clock)
+        if span_on > 0.0:
+            steer_walls(world.walls, time + (at + 0.5 * span_on) * numbers.dt, span_on * numbers.dt)
+        move_walls(world.walls, stage.drift_after * numbers.dt, numbers.wall_reach2)
 
 
 @compiled

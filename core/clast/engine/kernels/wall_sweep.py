@@ -26,8 +26,10 @@ from .layout import (
 )
 from .motion import book_wall_work
 from .slots import (
+    ANSWERING,
     CHOICES,
     CONTACT_LOSSES,
+    CURVED_WALLS,
     HISTORY,
     REMEMBERS,
     ROLLS,
@@ -122,6 +124,10 @@ def sweep_walls(
         constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
         load, kept = contact_load(touch, constants, history, dt, CHOICES)
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
+        if CURVED_WALLS:
+            walls.pressing[w] += dot(load.force, n)
+        if ANSWERING:
+            walls.touching_mass[w] += 1.0 / particles.body[k, INVERSE_MASS]
         if HISTORY > 0:
             for c in range(3):
                 pairs.history[p, c] = n[c]
