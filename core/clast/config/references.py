@@ -67,12 +67,14 @@ def _named_material(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
 def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
     walls = _section(data, "walls")
     compression = _section(data, "compression")
-    for key in ("upper", "lower"):
+    for key in ("upper", "lower", "side"):
         name = compression.get(key)
         if isinstance(name, str) and name not in walls:
             yield Problem(("compression", key), f"there is no wall {name!r}; {suggestion(name, walls)}")
     if "upper" in compression and compression["upper"] == compression.get("lower"):
         yield Problem(("compression", "lower"), "upper and lower must be two different walls")
+    if "side" in compression and compression["side"] in (compression.get("upper"), compression.get("lower")):
+        yield Problem(("compression", "side"), "the side must be another wall than upper and lower")
     end = _section(_section(data, "time"), "end")
     if "strain" in end and not compression:
         yield Problem(

@@ -153,6 +153,9 @@ class Compression(Params):
     lower: Annotated[str, Field(description="Name of the lower wall")]
     height: Annotated[Length, Field(gt=0, description="Height that strain refers to")]
     diameter: Annotated[Length, Field(gt=0, description="Diameter of the section that stress refers to")]
+    side: Annotated[
+        str | None, Field(description="Name of the wall around what is pressed, such as the cylinder of an oedometer")
+    ] = None
 
 
 class NeighbourSettings(Params):

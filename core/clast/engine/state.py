@@ -79,7 +79,7 @@ class Walls(NamedTuple):
     """Walls: numbers of shape and motion, where they are, and what acts on them.
 
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
-    flat; ``touching_mass`` (w,) in kg the masses of what touches, where a wall answers to it.
+    flat.
     """
 
     shape_kind: Integers
@@ -97,7 +97,6 @@ class Walls(NamedTuple):
     reference: Floats
     pressing: Floats
     pressing_sum: Floats
-    touching_mass: Floats
 
 
 class Cracks(NamedTuple):
@@ -133,6 +132,7 @@ class Numbers(NamedTuple):
     fade: float  # share of its load that a breaking bond loses each step
     first_step: int  # step from which the present time step is taken
     first_time: float  # its time in s
+    mass: float  # of all particles that forces can move, in kg
     late: float  # what the time since the forces before is more than usual in that step, in s
 
 

@@ -37,7 +37,7 @@ class Pressed(NamedTuple):
     force : vector
         Force of the particles on the wall at the last force evaluation in N.
     mass : float
-        Mass of all particles that touched it then in kg.
+        Mass of all particles of the scene in kg, as they are moved: with whatever mass scaling adds.
     velocity : vector
         Velocity with which the wall came there in m/s.
     span : float

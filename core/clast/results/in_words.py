@@ -6,6 +6,7 @@ from typing import Any
 
 from clast.forecast import duration
 from clast.results.energy import sentence
+from clast.results.side import side_rows
 
 
 def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
@@ -26,6 +27,8 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         ):
             if summary[key] is not None:
                 rows.append((text, f"{summary[key] / 1e6:.1f} MPa"))
+    if "side_wall" in summary:
+        rows += side_rows(summary["side_wall"])
     if counts["bonds"]:
         rows.append(("bonds broken", f"{summary['bonds_broken']} ({summary['bonds_broken'] / counts['bonds']:.1%})"))
         rows.append(("fragments", f"{summary['fragments']}"))

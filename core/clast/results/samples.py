@@ -42,6 +42,8 @@ class Samples:
             for what, unit in (("force", "N"), ("moment", "Nm"))
             for c in "xyz"
         ]
+        curved = [(k, name) for k, (name, wall) in enumerate(simulation.config.walls.items()) if not wall.flat]
+        self.curved_columns = {f"normal_force_{name}_N": k for k, name in curved}
 
     def next_step(self, step: int) -> int | None:
         """Return the next multiple of the interval, and at last the end."""
@@ -63,14 +65,15 @@ class Samples:
             self.store.append("tracks/particles", self._particle_row(simulation))
         if len(self.bonds):
             self.store.append("tracks/bonds", self._bond_row(simulation))
-        simulation.world.walls.force_sum[:] = simulation.world.walls.moment_sum[:] = 0.0
+        walls = simulation.world.walls
+        walls.force_sum[:] = walls.moment_sum[:] = walls.pressing_sum[:] = 0.0
         self.previous_step = simulation.step
 
     def _row(self, simulation: Simulation, ledger: Ledger) -> dict[str, float]:
         walls, gauge = simulation.world.walls, simulation.gauge
         steps = simulation.step - self.previous_step
-        mean = self.mean and steps
-        force, moment = (walls.force_sum / steps, walls.moment_sum / steps) if mean else (walls.force, walls.moment)
+        now, sums = (walls.force, walls.moment, walls.pressing), (walls.force_sum, walls.moment_sum, walls.pressing_sum)
+        force, moment, pressing = (each / steps for each in sums) if self.mean and steps else now
         row = {"time_s": simulation.time}
         if gauge.axis is not None:
             upper, lower = gauge.forces(force)
@@ -81,7 +84,10 @@ class Samples:
                 "force_upper_N": upper,
                 "force_lower_N": lower,
             }
+        side = gauge.side_reading(walls, force, pressing)
+        row |= side._asdict() if side is not None else {}
         row |= zip(self.wall_columns, np.concatenate((force, moment), axis=1).ravel().tolist(), strict=True)
+        row |= {name: float(pressing[k]) for name, k in self.curved_columns.items()}
         row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
         return row | (energy.columns(ledger) if simulation.plan.ledger else {})
 

@@ -21,6 +21,7 @@ from clast.results.energy import energy_results
 from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
 from clast.results.run import Run
+from clast.results.side import side_results
 from clast.results.whole_file import whole_file
 from clast.simulation import Simulation
 
@@ -84,6 +85,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         **grain_results(scene.grain, scene.true_mass, held, scene.ends, broken),
         "memory_MB": peak_memory(),
         **compression_results(simulation, curves),
+        **side_results(curves),
         **energy_results(simulation, curves),
     }
 

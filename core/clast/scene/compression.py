@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import ceil, pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +18,34 @@ Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
 
 
+class SideReading(NamedTuple):
+    """What a wall around a compression carries.
+
+    Attributes
+    ----------
+    stress_lower_Pa : float
+        Force on the lower wall over the area of the section, in Pa.
+    stress_side_Pa : float
+        What presses on the wall around along its normals, over its face between the plates as they stand, in Pa.
+    lateral_pressure_coefficient : float
+        Stress on the wall around over the mean of the stresses on the plates; 0 where nothing presses on them.
+    wall_friction_share : float
+        Force on the wall around in the direction in which the upper wall presses, over the force on the upper wall; 0
+        where nothing presses on that. At rest and without weight the rest is carried by the lower wall.
+    """
+
+    stress_lower_Pa: float
+    stress_side_Pa: float
+    lateral_pressure_coefficient: float
+    wall_friction_share: float
+
+
 class Gauge:
-    """Strain and stress of a compression between an upper and a lower wall.
+    """Strain and stress of a compression between an upper and a lower wall, and those on a wall around.
 
     Displacement is the approach of the two walls along the line from the lower wall's reference point to the upper
     one's; strain is displacement over ``compression.height``; stress is the force on the upper wall over the area of
-    a circle of ``compression.diameter``.
+    a circle of ``compression.diameter``. What is read off the wall around is told by :class:`SideReading`.
     """
 
     def __init__(self, config: SceneConfig) -> None:
@@ -34,19 +57,34 @@ class Gauge:
             self.lower = self.names.index(config.compression.lower)
             self.height = config.compression.height
             self.area = 0.25 * pi * config.compression.diameter**2
-            self.axis = self._axis()
+            line = self._line()
+            self.distance = float(np.linalg.norm(line))
+            self.axis = line / self.distance
+            self.side, self.girth = self._side(config.compression.side)
 
-    def _axis(self) -> Floats:
-        upper, lower = (self._centre(k) for k in (self.upper, self.lower))
-        line = upper - lower
-        length = np.linalg.norm(line)
-        if length == 0.0:
+    def _line(self) -> Floats:
+        """Return the way from the lower wall's reference point to the upper one's at the start, in m."""
+        line = self._centre(self.upper) - self._centre(self.lower)
+        if not line.any():
             raise self.config.problem(
                 ("compression",),
                 "the upper and the lower wall are in the same place, so there is no axis to press along; move one of "
                 "them",
             )
-        return np.asarray(line / length)
+        return line
+
+    def _side(self, name: str | None) -> tuple[int | None, float]:
+        """Return the number of the wall around and its circumference in m."""
+        if name is None:
+            return None, 0.0
+        side = self.names.index(name)
+        shape = self._wall(side).shape
+        if shape.part.girth is None:
+            raise self.config.problem(
+                ("compression", "side"),
+                f"walls.{name} is a {shape.name}, which surrounds nothing; name a wall such as a cylinder",
+            )
+        return side, float(shape.part.girth(shape.params))
 
     def _centre(self, k: int) -> Floats:
         wall = self._wall(k).shape
@@ -65,6 +103,31 @@ class Gauge:
         """Return what pushes the plates apart, upper and lower, in N, from the (w, 3) forces on the walls."""
         assert self.axis is not None
         return float(force[self.upper] @ self.axis), float(-force[self.lower] @ self.axis)
+
+    def side_reading(self, walls: Walls, force: Floats, pressing: Floats) -> SideReading | None:
+        """Return what the wall around carries; None without one.
+
+        Parameters
+        ----------
+        walls : Walls
+        force : (w, 3) float64
+            Forces on the walls in N.
+        pressing : (w,) float64
+            How hard contacts press on the walls along their normals, in N.
+        """
+        if self.axis is None or self.side is None:
+            return None
+        upper, lower = self.forces(force)
+        face = self.girth * (self.distance - self.displacement(walls))
+        radial = pressing[self.side] / face if face > 0.0 else 0.0
+        axial = 0.5 * (upper + lower) / self.area
+        carried = -float(force[self.side] @ self.axis)
+        return SideReading(
+            stress_lower_Pa=lower / self.area,
+            stress_side_Pa=float(radial),
+            lateral_pressure_coefficient=float(radial / axial) if axial > 0.0 else 0.0,
+            wall_friction_share=carried / upper if upper > 0.0 else 0.0,
+        )
 
     def last_step(self, dt: float, step: int = 0, time: float = 0.0) -> int:
         """Return the step at which the scene ends, with steps of ``dt`` from a step and its time on.

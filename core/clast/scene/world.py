@@ -98,6 +98,7 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, particles: Particl
         fade=1.0 / (1 + (config.bonds.fade_steps if config.bonds else 0)),
         first_step=0,
         first_time=0.0,
+        mass=float(scene.mass[~scene.prescribed].sum()),
         late=0.0,
     )
 
@@ -156,7 +157,7 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         np.array([names.index(wall.material) for wall in chosen], np.int64),
         np.array(centres, float).reshape(-1, 3),
         *still,
-        *(np.zeros(len(chosen)) for _ in range(3)),
+        *(np.zeros(len(chosen)) for _ in range(2)),
     )
 
 

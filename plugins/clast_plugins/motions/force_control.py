@@ -15,8 +15,8 @@ from clast.parts.wall import Motion, Pressed
 from clast.plugins.registry import Registry
 
 INERTIA = 10.0
-"""Mass of the wall as a share of the mass of the particles that touch it: together they vibrate at most
-√(1 + 1/10) = 1.05 times as fast as the particles do at a wall that stands still."""
+"""Mass of the wall as a share of the mass of all particles: together they vibrate at most √(1 + 1/10) = 1.05 times as
+fast as the particles do at a wall that stands still."""
 
 
 class ForceControl(Params):
@@ -27,28 +27,30 @@ class ForceControl(Params):
 
     Equation
     --------
-    M dv/dt = F(t) − P − v F_end/v_max,  |v| ≤ v_max;  with little inertia v ≈ v_max (F(t) − P)/F_end
+    M dv/dt = F(t) − P − v F_end/v_max,  |v| ≤ v_max;  as M counts for little, v ≈ v_max (F(t) − P)/F_end
 
     Symbols
     -------
     v, v_max : velocity along the direction and ``max_velocity`` in m/s
     P : force of the particles against the direction in N
     F(t), F_end : force to press with now and at last in N; F rises from 0 to F_end within ``ramp``
-    M : 10 times the mass of the particles that touch the wall in kg; without contact v = v_max F(t)/F_end
+    M : 10 times the mass of all particles of the scene in kg
 
     Why it is stable
     ----------------
     The wall is a piston with a dashpot, pushed by F: it takes energy out of every deviation and gives none, so with
     any fill that gives none, soft, stiff, breaking or ringing, it cannot build up vibrations. In steps of time: the
-    dashpot is taken implicitly, and the mass raises the fastest vibration of the fill by 5 % at most. A step of up to
-    0.95 of the limit without the motion is stable with it, whatever force and velocity are asked for.
+    dashpot is taken implicitly, and a wall that is free to move and 10 times as heavy as what touches it raises the
+    fastest vibration by 5 % at most. A step of up to 0.95 of the limit at walls that stand still is stable, whatever
+    force and velocity are asked for.
 
     Limits
     ------
     While a fill gives way with the velocity u, P stays below F by the share u/v_max. A fill of the stiffness K follows
-    with the time F_end/(v_max K). Where 2 √(K M) exceeds F_end/v_max, as when v_max means an impact, P rings before it
-    settles: take a smaller ``max_velocity``. When the last particle is gone the wall moves on with v_max. Weight is not
-    part of the wall. The force is held at every force evaluation, not as a mean.
+    with the time F_end/(v_max K); from rest the wall takes the time M v_max/F_end to come to speed. Where 2 √(K M)
+    exceeds F_end/v_max, as when v_max means an impact, P rings before it settles: take a smaller ``max_velocity``.
+    When the last particle is gone the wall moves on with v_max. The force is held at every force evaluation, not as a
+    mean over some time.
 
     Source
     ------

@@ -120,7 +120,8 @@ def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Sta
     if WALLS and first:
         at, span_on = until_next_forces(world.clock)
         if span_on > 0.0:
-            steer_walls(world.walls, time + (at + 0.5 * span_on) * numbers.dt, span_on * numbers.dt)
+            middle = time + (at + 0.5 * span_on) * numbers.dt
+            steer_walls(world.walls, numbers.mass, middle, span_on * numbers.dt)
         move_walls(world.walls, stage.drift_after * numbers.dt, numbers.wall_reach2)
 
 

@@ -26,7 +26,6 @@ from .layout import (
 )
 from .motion import book_wall_work
 from .slots import (
-    ANSWERING,
     CHOICES,
     CONTACT_LOSSES,
     CURVED_WALLS,
@@ -126,8 +125,6 @@ def sweep_walls(
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if CURVED_WALLS:
             walls.pressing[w] += dot(load.force, n)
-        if ANSWERING:
-            walls.touching_mass[w] += 1.0 / particles.body[k, INVERSE_MASS]
         if HISTORY > 0:
             for c in range(3):
                 pairs.history[p, c] = n[c]
