@@ -136,13 +136,13 @@ def test_it_settles_at_a_step_just_below_the_limit_without_any_dashpot_in_the_co
 
 
 def test_it_comes_to_rest_however_hard_it_hits() -> None:
-    """Contact is lost and found again; a wall that took up energy meanwhile would bounce for ever."""
+    """A wall that took up energy from what it hits would bounce for ever."""
     pressed = sphere(contacts__pairs__default__restitution=1.0, walls__piston__motion__max_velocity=2.0)
-    touching = []
+    forces = []
     while pressed.step < 5000:
         pressed.advance_to(pressed.step + 5)
-        touching.append(pressed.world.walls.force[1, 2] > 0.0)
-    assert np.count_nonzero(np.diff(touching)) > 4
+        forces.append(pressed.world.walls.force[1, 2])
+    assert max(forces) > 2.0
     assert ended(pressed).world.walls.force[1, 2] == pytest.approx(1.0, rel=1e-3)
 
 
