@@ -115,7 +115,7 @@ def answer(course: Course, time: float, pressed: Pressed) -> Vec:
 
     >>> free = Pressed(force=(0.0, 0.0, 0.0), mass=0.0, velocity=(0.0, 0.0, 0.0), span=1e-6)
     >>> answer(Course((0.0, 0.0, -1.0), force=8.0, max_velocity=0.1, ramp=0.0), 0.0, free)
-    (-0.0, -0.0, -0.1)
+    (0.0, 0.0, -0.1)
     """
     lacking = force_now(course, time) + dot(pressed.force, course.direction)
     inertia = INERTIA * pressed.mass / pressed.span
