@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import threading
 import time
@@ -59,13 +60,38 @@ def signals_to(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None
             signal.signal(number, earlier)
 
 
+MEMORY = 30.0
+"""Time in s over which the rate that is told is a mean: output and searches for neighbours come in between."""
+
+
+class Pace:
+    """Steps per second of late: a mean in which what is past counts less and less.
+
+    >>> pace = Pace()
+    >>> pace.add(100, 1.0)
+    100.0
+    >>> round(pace.add(0, 1.0))
+    49
+    """
+
+    def __init__(self) -> None:
+        self.steps = self.seconds = 0.0
+
+    def add(self, steps: int, seconds: float) -> float:
+        """Note steps and the wall-clock time they took; return the mean in steps per second."""
+        fades = math.exp(-seconds / MEMORY)
+        self.steps = fades * self.steps + steps
+        self.seconds = fades * self.seconds + seconds
+        return self.steps / max(self.seconds, 1e-9)
+
+
 class Watch:
     """Observer that looks several times a second, wherever the run is.
 
     Parameters
     ----------
     show : callable
-        Called with the simulation and the steps per second at every look.
+        Called with the simulation and the steps per second of late at every look but the first.
     checkpoint : callable
         Called when it is time for a checkpoint.
     interval : float
@@ -79,7 +105,8 @@ class Watch:
         self.stride = 1
         self.due = 0
         self.looked = self.saved = time.monotonic()
-        self.step = 0
+        self.step: int | None = None
+        self.pace = Pace()
         self.signal = 0
 
     def __enter__(self) -> Watch:
@@ -108,11 +135,12 @@ class Watch:
             After a signal.
         """
         now = time.monotonic()
-        rate = (simulation.step - self.step) / max(now - self.looked, 1e-9)
-        self.stride = max(1, min(10 * self.stride, int(rate * LOOK_EVERY)))
+        if self.step is not None:
+            steps, seconds = simulation.step - self.step, now - self.looked
+            self.stride = max(1, min(10 * self.stride, int(steps / max(seconds, 1e-9) * LOOK_EVERY)))
+            self.show(simulation, self.pace.add(steps, seconds))
         self.looked, self.step = now, simulation.step
         self.due = simulation.step + self.stride
-        self.show(simulation, rate)
         if self.signal:
             raise RunInterruptedError(self.signal)
         if now - self.saved >= self.interval:
