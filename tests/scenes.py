@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
 from pathlib import Path
 
 CRUSH = """
@@ -67,3 +68,38 @@ def write(folder: Path, text: str, name: str = "scene.yaml") -> Path:
     path = folder / name
     path.write_text(text)
     return path
+
+
+def bed(layers: int = 2, primaries: int = 30, strain: float = 0.35, contacts: str = "auto") -> str:
+    """Return a scene of ``layers`` times three grains in a tube that are pressed by a plate, like :data:`CRUSH`."""
+    grains = [_grain(layer, k, primaries) for layer in range(layers) for k in range(3)]
+    height = 1.2 + 1.0 * (layers - 1)
+    head, rest = CRUSH.split("particles:\n")
+    tail = rest[rest.index("bonds:\n") : rest.index("walls:\n")]
+    return f"""{head.replace("small", "bed")}particles:
+{"".join(grains)}{tail}walls:
+  upper:
+    type: plane
+    material: steel
+    point: [0, 0, {height:.3f} mm]
+    normal: [0, 0, -1]
+    motion: {{type: constant_velocity, velocity: [0, 0, -100 mm/s]}}
+  lower: {{type: plane, material: steel, point: [0, 0, 0], normal: [0, 0, 1]}}
+  tube: {{type: cylinder, material: steel, point: [0, 0, 0], axis: [0, 0, 1], radius: 1.31 mm}}
+compression: {{upper: upper, lower: lower, height: {height:.3f} mm, diameter: 2.62 mm}}
+time: {{mass_scaling: 100, step: 4e-7 s, end: {{strain: {strain}}}}}
+output: {{samples: 60, frames: 12, writers: [], checkpoint: 0.1 s, contacts: {contacts}}}
+"""
+
+
+def _grain(layer: int, k: int, primaries: int) -> str:
+    angle = 2.0 * pi * (k + 0.5 * layer) / 3.0
+    x, y, z = 0.7 * cos(angle), 0.7 * sin(angle), 0.6 + 1.0 * layer
+    return f"""  - type: spherical_agglomerate
+    material: glass
+    diameter: 1.2 mm
+    primary_diameter: 0.25 mm
+    primaries: {primaries}
+    seed: {1 + 3 * layer + k}
+    centre: [{x:.6f} mm, {y:.6f} mm, {z:.6f} mm]
+"""

@@ -257,6 +257,13 @@ class Output(Params):
 
     samples: Annotated[int, Field(ge=2, description="Points on the curves")] = 500
     frames: Annotated[int, Field(ge=0, description="States kept of all particles and bonds")] = 100
+    contacts: Annotated[
+        Literal["auto", True, False, "all"],
+        Field(
+            description="Whether frames keep what touches and its forces, between grains and at walls, or all, inside "
+            "grains too; 'auto' where there are several grains"
+        ),
+    ] = "auto"
     tracks: Annotated[Tracks, Field(description="Particles and bonds to follow at every sample")] = Tracks()
     force: Annotated[
         Literal["instantaneous", "mean"],

@@ -40,6 +40,8 @@ class Kernel:
         See ``kernels.near_walls.near_walls``.
     gaps : (world, between, at_walls) -> None
         See ``kernels.gaps.gaps``.
+    network : (world, moving, grain, inside, output) -> int
+        See ``kernels.network.network``.
     digest : str
         Of every source that takes part.
     fresh : bool
@@ -51,6 +53,7 @@ class Kernel:
     energies: Callable[..., None]
     near_walls: Callable[..., None]
     gaps: Callable[..., None]
+    network: Callable[..., int]
     digest: str
     fresh: bool
 
@@ -91,7 +94,7 @@ def assemble(plan: Blueprint) -> Kernel:
     _write_package(folder, text)
     _register([*plan.functions(), *helpers])
     package = _import_package(name, folder)
-    advance, observe, energies, near_walls, gaps = (
+    advance, observe, energies, near_walls, gaps, network = (
         Entry(getattr(_submodule(package, file), function), folder / "lock", laws)
         for file, function in (
             ("step_loop", "advance"),
@@ -99,10 +102,12 @@ def assemble(plan: Blueprint) -> Kernel:
             ("energies", "energies"),
             ("near_walls", "near_walls"),
             ("gaps", "gaps"),
+            ("network", "network"),
         )
     )
     fresh = not advance.on_disk
-    return Kernel(advance, observe, energies, near_walls, gaps, name.removeprefix("clast_kernel_"), fresh)
+    found = name.removeprefix("clast_kernel_")
+    return Kernel(advance, observe, energies, near_walls, gaps, network, found, fresh)
 
 
 def _template_helpers() -> list[Callable[..., Any]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.kernels.layout import Q, V, X
+from clast.results.contacts import ENDS, GROUP, find_contacts, keeps_contacts
 from clast.results.store import Store
 from clast.simulation import Simulation
 
@@ -16,6 +17,7 @@ class Frames:
         self.store = store
         self.simulation = simulation
         frames = simulation.config.output.frames
+        self.contacts = keeps_contacts(simulation.scene)
         self.every = max(1, round(simulation.planned_steps / frames)) if frames else 0
 
     def next_step(self, step: int) -> int | None:
@@ -48,5 +50,13 @@ class Frames:
         row["bond_intact"] = loads[:, 0].astype(np.uint8)
         row["bond_stress"] = (loads[:, 2] / (0.25 * np.pi * scene.diameter**2)).astype(np.float32)
         row["bond_failure"] = loads[:, 6].astype(np.float32)
+        if self.contacts:
+            row[ENDS] = self._keep_contacts(simulation)
         self.store.append("frames", row)
         self.store.keep_up(simulation)
+
+    def _keep_contacts(self, simulation: Simulation) -> int:
+        """Append what touches, before the frame that tells of it; return how many contacts are kept up to now."""
+        found = find_contacts(simulation, inside=simulation.config.output.contacts == "all")
+        self.store.extend(GROUP, found._asdict())
+        return self.store.known(GROUP)

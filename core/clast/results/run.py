@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.errors import RunError
+from clast.results.contacts import ENDS, GROUP, Contacts
 from clast.results.reading import (
     CONFIG_FILE,
     RESULTS_FILE,
@@ -213,6 +214,28 @@ class Run:
             bond_failure=frames["bond_failure"][k],
             wall_displacement=frames["wall_displacement"][k].reshape(-1, 3),
         )
+
+    def contacts(self, k: int) -> Contacts | None:
+        """Read what touches in frame ``k``; None where the frames keep no contacts, see ``output.contacts``.
+
+        Raises
+        ------
+        IndexError
+            If there is no such frame.
+        RunError
+            If the file is damaged there.
+        """
+        if not -self.n_frames <= k < self.n_frames:
+            raise IndexError(f"frame {k} of a run with {self.n_frames} frames")
+        if ENDS not in self._frames:
+            return None
+        with telling_damage(self.folder / RESULTS_FILE, f"contacts of frame {k}: "):
+            return self._read_contacts(k % self.n_frames)
+
+    def _read_contacts(self, k: int) -> Contacts:
+        ends = self._frames[ENDS]
+        begin, end = int(ends[k - 1]) if k else 0, int(ends[k])
+        return Contacts(*(self._file[GROUP][name][begin:end] for name in Contacts._fields))
 
     def frame_values(self, name: str) -> NDArray[np.float64]:
         """Read one number per frame for all frames: ``time``, ``step`` or ``strain``.

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from clast.engine.tables import crack_rows
 from clast.errors import DamagedError, RunError, one_line
 from clast.results.checkpoint import how_to_go_on
+from clast.results.contacts import GROUP as CONTACTS
 from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
 from clast.results.whole_file import whole_file
 from clast.scene.scatter import scatter_entries
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 FILE = "results.h5"
 CRACKS = ("time", "bond", "i", "j", "position", "mode", "normal_stress", "shear_stress", "energy")
 TRACKS = ("particles", "bonds")
-GROWING = ("curves", "frames", *(f"tracks/{name}" for name in TRACKS), "cracks")
+GROWING = ("curves", CONTACTS, "frames", *(f"tracks/{name}" for name in TRACKS), "cracks")
 DATASET_METADATA, CHUNK_METADATA = 2**13, 2**8
 """Bytes by which header and index of a dataset may grow with each flush, and with each chunk beside its own."""
 
@@ -106,9 +107,13 @@ class Store:
 
     def append(self, group: str, row: Mapping[str, Any]) -> None:
         """Append one row to every dataset of a group; it reaches the file with the next flush."""
-        self._append(group, {name: np.array(value)[None] for name, value in row.items()})
+        self.extend(group, {name: np.array(value)[None] for name, value in row.items()})
 
-    def _append(self, group: str, rows: Mapping[str, NDArray[Any]]) -> None:
+    def extend(self, group: str, rows: Mapping[str, NDArray[Any]]) -> None:
+        """Append any number of rows to every dataset of a group; they reach the file with the next flush.
+
+        Groups reach it in the order in which they were first given something since the flush before.
+        """
         columns = self.pending.setdefault(group, {})
         for name, values in rows.items():
             columns.setdefault(name, []).append(values)
@@ -116,7 +121,7 @@ class Store:
     def keep_cracks(self, simulation: Simulation) -> None:
         """Append the cracks that are not in the table yet."""
         cracks, scene = simulation.world.cracks, simulation.scene
-        rows = crack_rows(cracks)[self._known("cracks") :]
+        rows = crack_rows(cracks)[self.known("cracks") :]
         bond = cracks.bond[rows]
         area = 0.25 * np.pi * scene.diameter[bond] ** 2
         columns: tuple[NDArray[Any], ...] = (
@@ -130,9 +135,9 @@ class Store:
             cracks.load[rows, 1] / area,
             cracks.load[rows, 2],
         )
-        self._append("cracks", dict(zip(CRACKS, columns, strict=True)))
+        self.extend("cracks", dict(zip(CRACKS, columns, strict=True)))
 
-    def _known(self, group: str) -> int:
+    def known(self, group: str) -> int:
         """Return how many rows a group has, in the file and on the way to it."""
         waiting = next(iter(self.pending.get(group, {}).values()), [])
         return self._length(group) + sum(len(rows) for rows in waiting)
