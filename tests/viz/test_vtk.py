@@ -74,9 +74,9 @@ def test_scene_without_bonds_is_points_only(spheres: Run, tmp_path: Path) -> Non
     np.testing.assert_array_equal(data.points, spheres.frame(4).position)
 
 
-def test_every_third_frame_and_the_last(grain: Run, tmp_path: Path) -> None:
+def test_frames_are_spread_over_the_run_with_the_first_and_the_last(grain: Run, tmp_path: Path) -> None:
     path = tmp_path / "particles.vtkhdf"
-    write_vtk(grain, VtkParams(every=3), path)
+    write_vtk(grain, VtkParams(frames=5), path)
     opened = reader(path)
     assert opened.GetNumberOfSteps() == 5
     np.testing.assert_array_equal(read_step(opened, 4).points, grain.frame(-1).position[1:])

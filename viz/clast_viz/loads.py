@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.results.run import Frame
+from clast_viz.colours import looked_up, table
 
 # Brewer's diverging blue to red (colorbrewer2.org, RdBu) with a grey middle that is seen on white.
-_ANCHORS = (
+LOAD = (
     "#08306b", "#2166ac", "#4393c3", "#92c5de", "#c4ccd1", "#f4a582", "#d6604d", "#b2182b", "#67001f",
 )  # fmt: skip
-_LEVELS = 256
 
 
 def signed_load(frame: Frame) -> NDArray[np.float32]:
@@ -39,10 +39,7 @@ def load_colours() -> NDArray[np.uint8]:
     >>> load_colours()[0].tolist(), load_colours()[-1].tolist()
     ([8, 48, 107], [103, 0, 31])
     """
-    anchors = np.array([[int(text[k : k + 2], 16) for k in (1, 3, 5)] for text in _ANCHORS], dtype=np.float64)
-    at = np.linspace(0.0, len(anchors) - 1.0, _LEVELS)
-    channels = [np.interp(at, np.arange(len(anchors)), anchors[:, k]) for k in range(3)]
-    return np.round(np.stack(channels, axis=1)).astype(np.uint8)
+    return table(LOAD)
 
 
 def colour_of(load: NDArray[np.float32]) -> NDArray[np.uint8]:
@@ -52,12 +49,10 @@ def colour_of(load: NDArray[np.float32]) -> NDArray[np.uint8]:
     -------
     (k, 3) uint8
     """
-    level = np.clip((load + 1.0) * (0.5 * _LEVELS), 0, _LEVELS - 1)
-    colours: NDArray[np.uint8] = load_colours()[level.astype(np.intp)]
-    return colours
+    return looked_up(load_colours(), 0.5 * (load + np.float32(1.0)))
 
 
-def drawn_bonds(load: NDArray[np.float32], finite_where: NDArray[np.float32], budget: int) -> NDArray[np.intp]:
+def drawn_bonds(load: NDArray[np.float32], finite_where: NDArray[np.float32], budget: int | None) -> NDArray[np.intp]:
     """Choose the bonds to draw: all intact ones, or within the budget half by load and half as a sample.
 
     Parameters
@@ -66,8 +61,8 @@ def drawn_bonds(load: NDArray[np.float32], finite_where: NDArray[np.float32], bu
         Signed load, NaN for broken bonds.
     finite_where : (m,) float32
         Any number per bond that is NaN when one of its ends has left the domain.
-    budget : int
-        Most bonds to return.
+    budget : int or None
+        Most bonds to return, None for all.
 
     Returns
     -------
@@ -75,7 +70,7 @@ def drawn_bonds(load: NDArray[np.float32], finite_where: NDArray[np.float32], bu
         Numbers of the bonds, ascending, k <= budget.
     """
     intact = np.flatnonzero(np.isfinite(load) & np.isfinite(finite_where))
-    if len(intact) <= budget:
+    if budget is None or len(intact) <= budget:
         return intact
     order = np.argsort(-np.abs(load[intact]), kind="stable")
     top, rest = order[: budget - budget // 2], np.sort(order[budget - budget // 2 :])

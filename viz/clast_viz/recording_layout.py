@@ -5,14 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from clast.results.run import Run
+from clast_viz.damage import shows_damage
 from clast_viz.recording_plot import HEIGHT, LINE, WIDTH, Plot
 from clast_viz.recording_series import shown_series
 from clast_viz.recording_time import Timelines
 
 BACKGROUND = (249, 250, 252)
 PLAYED_IN_S = 12.0  # seconds the whole run takes at the playback speed the file opens with
+GRAIN_COLOURS = ((176, 184, 194), (214, 190, 150), (158, 188, 176), (190, 168, 190), (170, 178, 214))
 BALL_SIZE = 0.4  # of the radius, so that bonds are seen between the particles
 
 
@@ -54,16 +57,37 @@ def magnification(run: Run) -> float:
     return float(10.0 ** np.ceil(-np.log10(size)))
 
 
+def grain_colours(run: Run) -> NDArray[np.uint8]:
+    """Return for each particle the colour that tells materials apart, or grains where there is one material only."""
+    several = bool(np.any(run.material != run.material[0]))
+    number = run.material.astype(np.intp) if several or len(run.bond_ends) == 0 else np.maximum(run.grain, 0)
+    colours: NDArray[np.uint8] = np.array(GRAIN_COLOURS, np.uint8)[number % len(GRAIN_COLOURS)]
+    return colours
+
+
 def _scene_views(run: Run) -> Any:
     import rerun as rr
     import rerun.blueprint as rrb
 
-    spheres = _scene_view(run, "Grain", ["- /scene/bonds", "- /scene/cracks"], {})
-    if len(run.bond_ends) == 0:
-        return spheres
-    small = rr.Points3D.from_fields(radii=(BALL_SIZE * run.radius).astype(np.float32))
-    bonds = _scene_view(run, "Load in the bonds (red: tension, blue: compression)", [], {"/scene/particles": small})
-    return rrb.Tabs(bonds, spheres, active_tab=0)
+    particles = "/scene/particles"
+    only_spheres = ["- /scene/bonds", "- /scene/cracks", "- /scene/force_chains"]
+    several = shows_damage(run)
+    plain = rr.Points3D.from_fields(colors=grain_colours(run)) if several else None
+    views = [_scene_view(run, "Grains" if several else "Grain", only_spheres, {particles: plain} if plain else {})]
+    if len(run.bond_ends):
+        small = (BALL_SIZE * run.radius).astype(np.float32)
+        colours = {"colors": grain_colours(run)} if several else {}
+        balls = {particles: rr.Points3D.from_fields(radii=small, **colours)}
+        name = "Load in the bonds (red: tension, blue: compression)"
+        views.insert(0, _scene_view(run, name, ["- /scene/force_chains"], balls))
+    if run.contacts(0) is not None:
+        name = "Force chains (thick and dark: strong)"
+        views.append(_scene_view(run, name, ["- /scene/bonds", "- /scene/cracks", f"- {particles}"], {}))
+    if several:
+        views.insert(
+            0, _scene_view(run, "Damage of the grains (grey: none, dark red: all bonds broken)", only_spheres, {})
+        )
+    return rrb.Tabs(*views, active_tab=0) if len(views) > 1 else views[0]
 
 
 def _scene_view(run: Run, name: str, without: list[str], overrides: dict[str, Any]) -> Any:

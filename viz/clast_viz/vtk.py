@@ -1,130 +1,84 @@
-"""VTK: particles and bonds over time as one VTKHDF file for ParaView."""
+"""VTK: particles and bonds over time as one VTKHDF file for ParaView, what touches as another."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from clast.parts.params import Params
 from clast.parts.writer import Written
-from clast.results.room import SPARE, in_memory, room_beyond
+from clast.results.contacts import Contacts
+from clast.results.room import in_memory
 from clast.results.run import Frame, Run
-from clast_viz.column import Column
+from clast_viz.budget import Budget, FrameBudget, chosen_frames, most, within
+from clast_viz.chains import pieces
+from clast_viz.damage import GrainDamage
+from clast_viz.loads import drawn_bonds, signed_load
+from clast_viz.temporal_polydata import LAYOUT, TemporalPolyData
 
 FILE = "particles.vtkhdf"
-
-# VTK reads nothing, without a word, from files in the newest HDF5 layout
-_LAYOUT = ("earliest", "v110")
-_CELL_KINDS = ("Vertices", "Lines", "Polygons", "Strips")
+CONTACTS_FILE = "contacts.vtkhdf"
+ROOM = 2e9
+"""Bytes, before they are compressed, that frames may take together with ``frames: auto``."""
+PARTICLE_BYTES, BOND_BYTES = 68.0, 32.0
 
 
 class VtkParams(Params):
-    """What the user can choose about the VTK file."""
+    """What the user can choose about the VTK files; everything is in them with ``all`` twice."""
 
-    every: Annotated[int, Field(ge=1, description="Write every n-th frame; the last one always")] = 1
+    bonds: Annotated[
+        Budget,
+        Field(description="Most bonds per frame, the most loaded ones and a sample of the rest; or 'all'"),
+    ] = 200_000
+    frames: Annotated[
+        FrameBudget,
+        Field(description="Most frames, evenly spread; 'all'; or 'auto' for as many as fit in about 2 GB"),
+    ] = "auto"
 
 
 def write_vtk(run: Run, params: VtkParams, path: Path) -> Written:
     """Write ``particles.vtkhdf``: a temporal PolyData, each particle a vertex, each intact bond a line.
 
-    Point data: ``id``, ``radius`` in m, ``velocity`` in m/s, ``grain``, ``material``. Cell data: ``stress``
-    in Pa (tension positive) and ``failure`` (0 unloaded, 1 breaks) of the bonds, 0 on the vertices. Particles
-    that have left the domain are absent from then on, so ``id`` says which particle a point is.
+    Point data: ``id``, ``radius`` in m, ``velocity`` in m/s, ``grain``, ``material``, ``fragment`` (which piece, held
+    together by bonds), ``damage`` (share of the grain's bonds that are broken). Cell data: ``stress`` in Pa (tension
+    positive) and ``failure`` (0 unloaded, 1 breaks) of the bonds, 0 on the vertices. Particles that have left the
+    domain are absent from then on, so ``id`` says which particle a point is.
+
+    Where the run keeps contacts, ``contacts.vtkhdf`` beside it has a point for each: ``i``, ``j`` (−1 − w for wall w),
+    ``force`` on j, ``normal_force`` and ``tangential_force`` in N.
 
     Source: VTKHDF file format 2.2, https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/
     """
-    import h5py
-
     if run.n_frames == 0:
         return Written(None, "the run has recorded no frame")
-    path.write_bytes(in_memory(lambda file: file.create_group("VTKHDF"), libver=_LAYOUT))
-    with h5py.File(path, "r+", libver=_LAYOUT) as file:
-        polydata = TemporalPolyData(file)
-        for k in _chosen_frames(run.n_frames, params.every):
-            _append_frame(polydata, run, run.frame(k))
-        polydata.close()
+    size = PARTICLE_BYTES * len(run.radius) + BOND_BYTES * within(params.bonds, len(run.bond_ends))
+    frames = chosen_frames(run, params.frames, size, ROOM)
+    damage = GrainDamage(run)
+    _write(path, frames, lambda polydata, k: _append_frame(polydata, run, run.frame(k), damage, most(params.bonds)))
+    if run.contacts(0) is not None:
+        _write(path.with_name(CONTACTS_FILE), frames, lambda polydata, k: _append_contacts(polydata, run, k))
     return Written(path)
 
 
-class TemporalPolyData:
-    """Grows a VTKHDF PolyData one time step at a time.
+def _write(path: Path, frames: Sequence[int], append: Callable[[TemporalPolyData, int], None]) -> None:
+    import h5py
 
-    Parameters
-    ----------
-    file : h5py.File
-        A file to write to, with an empty group ``VTKHDF``.
-    """
-
-    def __init__(self, file: Any) -> None:
-        self._root = file["VTKHDF"]
-        with room_beyond(file, SPARE):
-            self._root.attrs["Version"] = np.array([2, 2], dtype=np.int64)
-            self._root.attrs.create("Type", b"PolyData", dtype="S8")
-        self._columns: dict[str, Column] = {}
-        self._steps: dict[str, list[Any]] = {}
-
-    def append(
-        self,
-        time: float,
-        points: NDArray[np.float32],
-        lines: NDArray[np.int64],
-        point_data: dict[str, NDArray[Any]],
-        cell_data: dict[str, NDArray[Any]],
-    ) -> None:
-        """Add a step: every point is a vertex cell, then come the ``lines`` (k, 2)."""
-        cells = {"Vertices": np.arange(len(points), dtype=np.int64)[:, None], "Lines": lines.reshape(-1, 2)}
-        nothing = np.zeros((0, 1), dtype=np.int64)
-        self._step("PartOffsets", len(self._steps.get("Values", [])))
-        self._step("Values", time)
-        self._step("NumberOfParts", 1)
-        self._column("NumberOfPoints").append(np.array([len(points)], dtype=np.int64))
-        self._step("PointOffsets", self._column("Points").append(points))
-        placed = [self._append_cells(kind, cells.get(kind, nothing)) for kind in _CELL_KINDS]
-        self._step("CellOffsets", [cell for cell, _ in placed])
-        self._step("ConnectivityIdOffsets", [connectivity for _, connectivity in placed])
-        for name, values in point_data.items():
-            self._step(f"PointDataOffsets/{name}", self._column(f"PointData/{name}").append_if_new(values))
-        for name, values in cell_data.items():
-            self._step(f"CellDataOffsets/{name}", self._column(f"CellData/{name}").append(values))
-
-    def close(self) -> None:
-        """Write what is still held back and the table of steps; the file is complete after this."""
-        for column in self._columns.values():
-            column.flush()
-        tables = {
-            name: np.array(rows, dtype=np.float64 if name == "Values" else np.int64)
-            for name, rows in self._steps.items()
-        }
-        with room_beyond(self._root.file, SPARE + sum(table.nbytes for table in tables.values())):
-            steps = self._root.create_group("Steps")
-            steps.attrs["NSteps"] = len(self._steps["Values"])
-            for name, table in tables.items():
-                steps[name] = table
-
-    def _append_cells(self, kind: str, cells: NDArray[np.int64]) -> tuple[int, int]:
-        count, size = cells.shape
-        steps_before = self._column(f"{kind}/NumberOfCells").append(np.array([count], dtype=np.int64))
-        self._column(f"{kind}/NumberOfConnectivityIds").append(np.array([cells.size], dtype=np.int64))
-        offsets = np.arange(0, count * size + 1, size, dtype=np.int64)
-        # VTK counts cells here, and each step before this one has one offset more than it has cells
-        cell = self._column(f"{kind}/Offsets").append(offsets) - steps_before
-        return cell, self._column(f"{kind}/Connectivity").append_if_new(cells.ravel())
-
-    def _step(self, name: str, value: Any) -> None:
-        self._steps.setdefault(name, []).append(value)
-
-    def _column(self, name: str) -> Column:
-        return self._columns.setdefault(name, Column(self._root, name))
+    path.write_bytes(in_memory(lambda file: file.create_group("VTKHDF"), libver=LAYOUT))
+    with h5py.File(path, "r+", libver=LAYOUT) as file:
+        polydata = TemporalPolyData(file)
+        for k in frames:
+            append(polydata, k)
+        polydata.close()
 
 
-def _append_frame(polydata: TemporalPolyData, run: Run, frame: Frame) -> None:
+def _append_frame(polydata: TemporalPolyData, run: Run, frame: Frame, damage: GrainDamage, budget: int | None) -> None:
     present = np.asarray(np.isfinite(frame.position).all(axis=1))
     renumbered = np.cumsum(present) - 1
-    shown = frame.bond_intact & present[run.bond_ends].all(axis=1)
+    shown = drawn_bonds(signed_load(frame), frame.position[run.bond_ends].sum(axis=(1, 2)), budget)
     lines = renumbered[run.bond_ends[shown]].astype(np.int64)
     on_vertices = np.zeros(int(present.sum()), dtype=np.float32)
     polydata.append(
@@ -137,6 +91,8 @@ def _append_frame(polydata: TemporalPolyData, run: Run, frame: Frame) -> None:
             "velocity": frame.velocity[present],
             "grain": run.grain[present].astype(np.int64),
             "material": run.material[present],
+            "fragment": pieces(run, frame)[present],
+            "damage": damage.of(frame)[present],
         },
         cell_data={
             "stress": np.concatenate([on_vertices, frame.bond_stress[shown]]),
@@ -145,5 +101,8 @@ def _append_frame(polydata: TemporalPolyData, run: Run, frame: Frame) -> None:
     )
 
 
-def _chosen_frames(n_frames: int, every: int) -> list[int]:
-    return sorted({*range(0, n_frames, every), n_frames - 1})
+def _append_contacts(polydata: TemporalPolyData, run: Run, k: int) -> None:
+    found = run.contacts(k)
+    assert isinstance(found, Contacts)
+    data = found._asdict()
+    polydata.append(float(run.frame_values("time")[k]), data.pop("position"), np.zeros((0, 2), np.int64), data, {})
