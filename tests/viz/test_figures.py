@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 import clast_viz.picture
+import clast_viz.picture_parts
 import clast_viz.renderer
 from clast.errors import RunError
 from clast.results.run import Run
@@ -119,7 +120,7 @@ def test_picture_shows_loaded_bonds_in_both_colours(grain: Run, tmp_path: Path) 
 def test_picture_of_two_spheres(
     spheres: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_spheres: int
 ) -> None:
-    monkeypatch.setattr(clast_viz.picture, "MOST_SPHERES", most_spheres)
+    monkeypatch.setattr(clast_viz.picture_parts, "MOST_SPHERES", most_spheres)
     path = tmp_path / "picture.png"
     write_picture(spheres, SMALL, path)
     covered = (pixels(path) < 0.9).any(axis=-1).mean()
