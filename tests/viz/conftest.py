@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from clast.results.run import Run, open_run
-from tests.viz.synthetic_run import small_grain, two_spheres, write_run
+from tests.viz.synthetic_run import small_grain, three_grains, two_spheres, write_run
 
 
 @pytest.fixture(scope="session")
@@ -23,4 +23,15 @@ def grain(grain_folder: Path) -> Iterator[Run]:
 @pytest.fixture
 def spheres(tmp_path: Path) -> Iterator[Run]:
     with open_run(write_run(tmp_path / "spheres", two_spheres())) as run:
+        yield run
+
+
+@pytest.fixture(scope="session")
+def bed_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_run(tmp_path_factory.mktemp("runs") / "bed", three_grains())
+
+
+@pytest.fixture
+def bed(bed_folder: Path) -> Iterator[Run]:
+    with open_run(bed_folder) as run:
         yield run

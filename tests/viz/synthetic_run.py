@@ -36,6 +36,52 @@ class Scene(NamedTuple):
     frames: Mapping[str, NDArray[Any]]
     curves: Mapping[str, NDArray[np.float64]]
     cracks: Mapping[str, NDArray[Any]]
+    grain: NDArray[np.int64] | None = None
+    contacts: Mapping[str, NDArray[Any]] | None = None
+
+
+def three_grains() -> Scene:
+    """Cut the small grain into three from left to right; they push on each other, and on the upper plate.
+
+    In frame k the first 2 k pairs of particles touch whose bonds were cut, and particle 40 touches the upper plate.
+    """
+    whole = small_grain()
+    start = _ball(0.36e-3, 0.9e-3)
+    grain = np.digitize(start[:, 0], [-0.2e-3, 0.2e-3])
+    kept = grain[whole.ends[:, 0]] == grain[whole.ends[:, 1]]
+    ends, cut = whole.ends[kept], whole.ends[~kept]
+    breaks_in = 4 + np.arange(len(ends)) % 29
+    frames = dict(whole.frames)
+    for name in ("bond_intact", "bond_stress", "bond_failure"):
+        frames[name] = frames[name][:, kept]
+    frames["bond_intact"] = (np.arange(FRAMES)[:, None] < breaks_in).astype(np.uint8)
+    found = [_contacts(cut[: 2 * k], frames["position"][k]) for k in range(FRAMES)]
+    frames["contacts_end"] = np.cumsum([len(each["i"]) for each in found])
+    return whole._replace(
+        ends=ends,
+        bond_diameter=whole.bond_diameter[kept],
+        bond_length=whole.bond_length[kept],
+        frames=frames,
+        cracks=_cracks(frames, ends, breaks_in),
+        grain=grain,
+        contacts={name: np.concatenate([each[name] for each in found]) for name in found[0]},
+    )
+
+
+def _contacts(pairs: NDArray[np.uint32], position: NDArray[np.float32]) -> dict[str, NDArray[Any]]:
+    """Let pairs push along the line between them, each harder than the one before, and particle 40 up on wall 0."""
+    i, j = np.append(pairs[:, 0], 40).astype(np.uint32), np.append(pairs[:, 1].astype(np.int32), -1).astype(np.int32)
+    way = np.where((j >= 0)[:, None], position[j] - position[i], np.float32([0.0, 0.0, 1e-4]))
+    normal = np.arange(1.0, len(i) + 1.0, dtype=np.float32)
+    force = normal[:, None] * np.nan_to_num(way / np.linalg.norm(way, axis=1)[:, None])
+    return {
+        "i": i,
+        "j": j,
+        "position": np.nan_to_num(position[i] + 0.5 * way).astype(np.float32),
+        "force": force.astype(np.float32),
+        "normal_force": normal,
+        "tangential_force": np.zeros_like(normal),
+    }
 
 
 def small_grain() -> Scene:
@@ -103,6 +149,8 @@ def write_run(folder: Path, scene: Scene, *, reference: bool = True, complete: b
             group.attrs["index"] = index
         _write_columns(file.create_group("frames"), scene.frames)
         _write_columns(file.create_group("curves"), scene.curves)
+        if scene.contacts is not None:
+            _write_columns(file.create_group("contacts"), scene.contacts)
         _write_columns(file.create_group("cracks"), scene.cracks)
         file["cracks/mode"].attrs["modes"] = MODES
     config = {"name": "synthetic", "reference": [REFERENCE] if reference else []}
@@ -149,7 +197,7 @@ def compression_curves(
 
 def _write_particles(file: h5py.File, scene: Scene) -> None:
     file["particles/radius"] = scene.radius
-    file["particles/grain"] = np.zeros(len(scene.radius), np.int64)
+    file["particles/grain"] = np.zeros(len(scene.radius), np.int64) if scene.grain is None else scene.grain
     file["particles/material"] = np.zeros(len(scene.radius), np.uint8)
     file["particles/material"].attrs["names"] = ["glass"]
 

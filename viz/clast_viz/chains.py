@@ -21,7 +21,7 @@ class Chains(NamedTuple):
     Attributes
     ----------
     ends : (k, 2, 3) float32
-        Centres of the two pieces, or of a piece and of where it touches a wall, in m.
+        Centres of the two pieces, or where a piece touches a wall and its centre, in m.
     force : (k,) float32
         Size of the force between them in N, summed over their contacts.
     """
@@ -56,7 +56,8 @@ def force_chains(frame: Frame, contacts: Contacts, piece: NDArray[np.int64], bud
     # a wall is met at many places, so that its contacts are counted by piece and number of the wall
     second = np.where(contacts.j >= 0, piece[np.maximum(contacts.j, 0)], contacts.j.astype(np.int64))
     link, force, place = _summed(first, second, contacts)
-    ends = np.stack([centre[link[:, 1]], np.where(link[:, :1] < 0, place, centre[np.maximum(link[:, 0], 0)])], axis=1)
+    near_end = np.where(link[:, :1] < 0, place, centre[np.maximum(link[:, 0], 0)])
+    ends = np.stack([near_end, centre[link[:, 1]]], axis=1)
     order = np.argsort(-force, kind="stable")[:budget]
     return Chains(ends[order].astype(np.float32), force[order].astype(np.float32))
 
