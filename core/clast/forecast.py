@@ -14,6 +14,7 @@ import numpy as np
 
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
+from clast.forecast_results import results_text, size_concerns
 from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.scene.build import generated, join, site
@@ -58,8 +59,12 @@ class Forecast:
         Where the numbers come from.
     concerns : tuple of str
         What will probably keep the run from ending, and what to do.
+    results : str
+        How large the results become.
     particles_band : float
         How sure ``particles`` is, as ``Estimate.band``.
+    results : str
+        How large the results become.
     """
 
     particles: int
@@ -71,6 +76,7 @@ class Forecast:
     notes: tuple[str, ...] = ()
     concerns: tuple[str, ...] = ()
     particles_band: float = 0.0
+    results: str = ""
 
     def text(self) -> str:
         """Forecast as lines to print."""
@@ -80,6 +86,7 @@ class Forecast:
             ("memory", f"about {self.memory / 1e6:,.0f} MB, {COMPILER_BYTES / 1e6:.0f} MB more while compiling"),
             ("time step", f"{self.time_step:.3g} s"),
             ("steps", count_text(self.steps)),
+            ("results", self.results),
             ("time", f"about {duration(max(self.seconds, 1.0))} on one core, up to half a minute more with compiling"),
         ]
         lines = [f"{name:10} {value}" for name, value in rows]
@@ -121,8 +128,13 @@ def forecast(config: SceneConfig) -> Forecast:
         steps=steps,
         seconds=seconds,
         notes=step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
-        concerns=(*time_concerns(config, steps, seconds), *_memory_concerns(config, memory)),
+        concerns=(
+            *time_concerns(config, steps, seconds),
+            *_memory_concerns(config, memory),
+            *size_concerns(config, particles, count),
+        ),
         particles_band=band,
+        results=results_text(config, particles, count),
     )
 
 

@@ -16,8 +16,11 @@ from clast.config.scene import SceneConfig
 from clast.engine.time_step import choose_step, limits, pair_limit
 from clast.errors import ConfigError
 from clast.forecast import COMPILER_BYTES, forecast, time_concerns
+from clast.forecast_results import frame_bytes, frame_count, size_concerns
+from clast.results.run import open_run
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from clast.session import run_scene
 from tests.scenes import COLLISION, CRUSH, write
 
 CONFIGS = Path(__file__).parents[2] / "configs"
@@ -201,3 +204,29 @@ def test_a_scene_that_cannot_start_is_refused_as_far_as_it_shows(tmp_path: Path)
     scene: SceneConfig = load(write(tmp_path, COLLISION))
     with pytest.raises(ConfigError, match=r"particles\.particles\.1: particle 1 overlaps particle 0"):
         forecast(scene.changed({"particles.particles.1.position": ["0.5 mm", 0, 0]}))
+
+
+def test_results_become_as_large_as_was_told(tmp_path: Path) -> None:
+    scene = load(write(tmp_path, CRUSH)).changed({"output.frames": 40})
+    run_scene(scene, tmp_path / "run")
+    told = forecast(scene)
+    size = (tmp_path / "run" / "results.h5").stat().st_size
+    built = build_scene(scene)
+    with open_run(tmp_path / "run") as run:
+        assert run.n_frames == pytest.approx(frame_count(scene), abs=1)
+    least = 40 * (40 * len(built.radius) + 9 * len(built.ends))
+    assert least < frame_count(scene) * frame_bytes(scene, len(built.radius), len(built.ends)) < size
+    assert "41 frames" in told.text()
+
+
+def test_large_results_are_pointed_out_with_the_frames_that_fit(tmp_path: Path) -> None:
+    scene = load(write(tmp_path, CRUSH.replace("frames: 12", "frames: 300")))
+    line = CRUSH.splitlines().index(next(each for each in CRUSH.splitlines() if each.startswith("output"))) + 1
+    assert size_concerns(scene, 280_000, 1_700_000) == [
+        f"{tmp_path / 'scene.yaml'}:{line}:23: output.frames: the results need about 9 GB of disk, 30 MB a frame; "
+        "132 frames would need 4 GB"
+    ]
+    assert size_concerns(scene.changed({"output.frames": 100}), 280_000, 1_700_000) == []
+    without = scene.changed({"output.frames": 0})
+    assert size_concerns(without, 280_000, 1_700_000) == []
+    assert "curves only" in forecast(without).text()

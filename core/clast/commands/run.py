@@ -11,6 +11,7 @@ from clast.commands.live_bar import LiveBar
 from clast.config.scene import SceneConfig, load
 from clast.errors import RunError
 from clast.forecast import duration, run_seconds, time_concerns
+from clast.forecast_results import size_concerns
 from clast.results.in_words import summary_rows
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
@@ -91,7 +92,8 @@ class Lines(Listener):
             if line:
                 self.say(line)
         seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)
-        for line in time_concerns(simulation.config, left, seconds):
+        concerns = time_concerns(simulation.config, left, seconds)
+        for line in (*concerns, *size_concerns(simulation.config, len(scene.radius), len(scene.ends))):
             self.say(line)
         self.last = time.monotonic()
 
