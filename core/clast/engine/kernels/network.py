@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 from clast.engine.compiler import compiled, inlined, routine
-from clast.engine.state import Floats, Integers, World
+from clast.engine.state import Bonds, Floats, Integers, Numbers, Pairs, Particles, World
 from clast.maths.vec3 import Vec, add, dot, scale, sub
 
 from .contact_lane import HISTORY_BASE, gather, read_touch
@@ -60,8 +60,9 @@ def network(world: World, moving: bool, grain: Integers, inside: bool, output: F
     found = 0
     if CONTACTS:
         scratch = np.empty(FREE_LANES)
-        for k in range(len(world.pairs.first)):
-            if counts(world, k, grain, inside, scratch):
+        particles, pairs, bonds, numbers = world.particles, world.pairs, world.bonds, world.numbers
+        for k in range(len(pairs.first)):
+            if counts(particles, pairs, bonds, numbers, k, grain, inside, scratch):
                 if found < len(output):
                     write_pair(world, k, scratch, time, output[found])
                 found += 1
@@ -73,15 +74,23 @@ def network(world: World, moving: bool, grain: Integers, inside: bool, output: F
 
 
 @inlined
-def counts(world: World, k: int, grain: Integers, inside: bool, scratch: Floats) -> bool:
+def counts(
+    particles: Particles,
+    pairs: Pairs,
+    bonds: Bonds,
+    numbers: Numbers,
+    k: int,
+    grain: Integers,
+    inside: bool,
+    scratch: Floats,
+) -> bool:
     """Tell whether pair k touches and is asked for; copy its distance and radii into the first lane."""
-    pairs = world.pairs
     i, j = pairs.first[k], pairs.second[k]
     if pairs.sides[k] & FIRST == 0 or not (inside or grain[i] < 0 or grain[i] != grain[j]):
         return False
-    if not BONDED_PAIRS_TOUCH and joined(pairs, world.bonds, k):
+    if not BONDED_PAIRS_TOUCH and joined(pairs, bonds, k):
         return False
-    return bool(meet(world.particles, pairs, k, world.numbers, scratch, 0))
+    return bool(meet(particles, pairs, k, numbers, scratch, 0))
 
 
 @routine
