@@ -138,11 +138,12 @@ def schema(files: tuple[Path, ...]) -> None:
 @main.command()
 @click.argument("folder", metavar="RUN", type=click.Path(path_type=Path))
 @click.argument("names", metavar="[WRITER]...", nargs=-1)
-def write(folder: Path, names: tuple[str, ...]) -> None:
+@change_option
+def write(folder: Path, names: tuple[str, ...], overrides: tuple[str, ...]) -> None:
     """Make the files of RUN, the folder of a run, anew; those of all its writers, or of the ones named."""
     from clast.commands import write as write_command
 
-    write_command.write(folder, names)
+    write_command.write(folder, names, overrides)
 
 
 @main.command()

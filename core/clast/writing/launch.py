@@ -19,9 +19,12 @@ from typing import Any, NoReturn
 
 from clast.parts.writer import NOT_WRITTEN, Written
 from clast.results.watch import RunInterruptedError, signals_to
+from clast.writing.process import SET
 
 
-def write(folder: Path, names: Sequence[str], starts: Callable[[str], Any]) -> dict[str, Written]:
+def write(
+    folder: Path, names: Sequence[str], starts: Callable[[str], Any], overrides: Sequence[str] = ()
+) -> dict[str, Written]:
     """Let writers write the files of a finished run.
 
     Parameters
@@ -32,6 +35,8 @@ def write(folder: Path, names: Sequence[str], starts: Callable[[str], Any]) -> d
         The writers, in order. One that the scene does not name has its default parameters.
     starts : callable
         Called with the name of each writer when it starts.
+    overrides : sequence of str
+        ``key.path=value`` each, laid over the scene that the folder keeps.
 
     Returns
     -------
@@ -48,7 +53,7 @@ def write(folder: Path, names: Sequence[str], starts: Callable[[str], Any]) -> d
         with signals_to(_stop):
             while left := [name for name in names if name not in written]:
                 with TemporaryDirectory(prefix=".writing-", dir=folder, ignore_cleanup_errors=True) as drafts:
-                    written |= _one_process(folder, Path(drafts), left, starts)
+                    written |= _one_process(folder, Path(drafts), left, starts, overrides)
     except OSError as error:  # no room for drafts, or for one more process
         written = {name: Written(None, f"{NOT_WRITTEN}{error}") for name in names} | written
     return written
@@ -58,11 +63,13 @@ def _stop(number: int, frame: FrameType | None) -> NoReturn:
     raise RunInterruptedError(number, "the results are kept; 'clast write' makes the files that are missing")
 
 
-def _one_process(folder: Path, drafts: Path, names: Sequence[str], starts: Callable[[str], Any]) -> dict[str, Written]:
+def _one_process(
+    folder: Path, drafts: Path, names: Sequence[str], starts: Callable[[str], Any], overrides: Sequence[str]
+) -> dict[str, Written]:
     """Let one process write; return what each writer left that ended, and of which one the process died."""
     written: dict[str, Written] = {}
     lost = list(names)
-    with _drawing(folder, drafts, names) as process:
+    with _drawing([str(folder), str(drafts), *names, *(f"{SET}{each}" for each in overrides)]) as process:
         for line in process.stdout or ():
             name, *ending = json.loads(line)
             if ending:
@@ -77,12 +84,12 @@ def _one_process(folder: Path, drafts: Path, names: Sequence[str], starts: Calla
 
 
 @contextmanager
-def _drawing(folder: Path, drafts: Path, names: Sequence[str]) -> Iterator[subprocess.Popen[str]]:
+def _drawing(given: Sequence[str]) -> Iterator[subprocess.Popen[str]]:
     """Start :mod:`clast.writing.process`; end it with all it started when something comes between.
 
     It finds modules where this process does, and hears no Ctrl-C of its own: a session apart gets none.
     """
-    command = [sys.executable, "-P", "-m", "clast.writing.process", str(folder), str(drafts), *names]
+    command = [sys.executable, "-P", "-m", "clast.writing.process", *given]
     around = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, env=around, start_new_session=True

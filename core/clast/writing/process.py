@@ -1,4 +1,6 @@
-"""The process that draws: ``python -m clast.writing.process RUN DRAFTS NAME ...``, as :mod:`clast.writing.launch` says.
+"""The process that draws: ``python -m clast.writing.process RUN DRAFTS NAME ... --set=KEY=VALUE ...``.
+
+:mod:`clast.writing.launch` starts it.
 
 On its standard output it tells in lines of JSON what it does: ``[name]`` when a writer starts, ``[name, path, reason]``
 when it ends. What writers print themselves goes to standard error.
@@ -23,20 +25,24 @@ from clast.parts.writer import NOT_WRITTEN, Written
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import Run, open_run
 
+SET = "--set="
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 PROBED = 2**18
 """Bytes that must be free when a writer has ended; more than libraries write at once."""
 
 
-def main(folder: Path, drafts: Path, names: Sequence[str]) -> None:
-    """Let the writers write, one after the other, each into the empty folder of drafts."""
+def main(folder: Path, drafts: Path, names: Sequence[str], overrides: Sequence[str] = ()) -> None:
+    """Let the writers write, one after the other, each into the empty folder of drafts.
+
+    Overrides are laid over the scene, as on the command line.
+    """
     with _standard_output() as told:
 
         def tell(*what: str) -> None:
             print(json.dumps(what), file=told, flush=True)
 
         try:
-            writers = chosen_writers(load(folder / CONFIG_FILE), names)
+            writers = chosen_writers(load(folder / CONFIG_FILE, overrides), names)
             run = open_run(folder)
         except ClastError as error:
             for name in names:
@@ -133,4 +139,10 @@ def _told(error: Exception, drafts: Path) -> str:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])
+    given = sys.argv[3:]
+    main(
+        Path(sys.argv[1]),
+        Path(sys.argv[2]),
+        [each for each in given if not each.startswith(SET)],
+        [each.removeprefix(SET) for each in given if each.startswith(SET)],
+    )
