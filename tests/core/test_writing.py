@@ -246,6 +246,19 @@ def test_clast_write_writes_again_what_the_scene_names(folder: Path) -> None:
     assert (folder / "words.txt").read_text().startswith("blue")
 
 
+def test_clast_write_changes_what_writers_draw_for_once(folder: Path) -> None:
+    kept = (folder / "config.yaml").read_bytes()
+    changed = CliRunner().invoke(main, ["write", str(folder), "words", "--set", "output.writers.0.colour=red"])
+    assert changed.exit_code == 0, changed.output
+    assert (folder / "words.txt").read_text().startswith("red")
+    assert (folder / "config.yaml").read_bytes() == kept
+    for wrong, told in (("time.end.steps=9", "the run has ended"), ("output.writers.0.hue=1", "not a known key")):
+        refused = CliRunner().invoke(main, ["write", str(folder), "--set", wrong])
+        assert refused.exit_code != 0
+        assert told in refused.output
+    assert (folder / "words.txt").read_text().startswith("red")
+
+
 def test_clast_write_takes_any_writer_and_tells_of_those_that_fail(folder: Path) -> None:
     told = CliRunner().invoke(main, ["write", str(folder), "vtk", "torn"])
     assert told.exit_code == 1

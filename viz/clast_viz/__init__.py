@@ -23,7 +23,7 @@ def clast_register(registry: Registry) -> None:
     registry.writer(
         "recording",
         Writer(
-            summary="rerun recording: particles, bonds coloured by load, cracks, walls, curves over time",
+            summary="rerun recording: particles, bonds coloured by load, damage, force chains, cracks, walls, curves over time",
             Params=recording.RecordingParams,
             file=recording.FILE,
             write=recording.write_recording,
@@ -32,7 +32,7 @@ def clast_register(registry: Registry) -> None:
     registry.writer(
         "vtk",
         Writer(
-            summary="VTKHDF for ParaView: particles and intact bonds over time",
+            summary="VTKHDF for ParaView: particles, intact bonds and contacts over time",
             Params=vtk.VtkParams,
             file=vtk.FILE,
             write=vtk.write_vtk,
@@ -61,7 +61,7 @@ def clast_register(registry: Registry) -> None:
     registry.writer(
         "picture",
         Writer(
-            summary="the grain at its peak stress, bonds coloured by load",
+            summary="a grain at its peak stress, bonds coloured by load; or a bed cut open, grains coloured by damage",
             Params=picture.PictureParams,
             file=picture.FILE,
             write=picture.write_picture,

@@ -120,9 +120,9 @@ class SceneLog:
 
     @property
     def _thickest(self) -> float:
-        """Radius of a link that is drawn in full: a quarter of a grain's, were its particles one ball."""
+        """Radius of a link that is drawn in full: a fifth of a grain's, were its particles one ball."""
         per_grain = len(self._run.radius) / max(len(np.unique(self._run.grain)), 1)
-        return float(0.25 * np.median(self._run.radius) * np.cbrt(per_grain))
+        return float(0.2 * np.median(self._run.radius) * np.cbrt(per_grain))
 
 
 def _strips(ends: NDArray[np.float32]) -> Any:
