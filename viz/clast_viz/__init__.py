@@ -23,7 +23,7 @@ def clast_register(registry: Registry) -> None:
     registry.writer(
         "recording",
         Writer(
-            summary="rerun recording: particles, bonds coloured by load, damage, force chains, cracks, walls, curves over time",
+            summary="rerun recording: particles, bonds by load, damage, force chains, cracks, walls, curves over time",
             Params=recording.RecordingParams,
             file=recording.FILE,
             write=recording.write_recording,
