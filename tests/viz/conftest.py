@@ -27,11 +27,11 @@ def spheres(tmp_path: Path) -> Iterator[Run]:
 
 
 @pytest.fixture(scope="session")
-def bed_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_run(tmp_path_factory.mktemp("runs") / "bed", three_grains())
+def three_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_run(tmp_path_factory.mktemp("runs") / "three", three_grains())
 
 
 @pytest.fixture
-def bed(bed_folder: Path) -> Iterator[Run]:
-    with open_run(bed_folder) as run:
+def three(three_folder: Path) -> Iterator[Run]:
+    with open_run(three_folder) as run:
         yield run
