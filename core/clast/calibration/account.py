@@ -30,9 +30,11 @@ AT_THE_END = 0.01
 def parameter_rows(fit: Fit) -> tuple[list[str], list[list[str]]]:
     """Return heads and rows of the table of parameters."""
     rows = []
-    for axis, setting, share in zip(fit.axes, fit.point, fit.identified.deviation, strict=True):
+    for axis, setting, place, share in zip(
+        fit.axes, fit.point, fit.shares[fit.best], fit.identified.deviation, strict=True
+    ):
         low, high = (axis.at(end).number or 0.0 for end in (0.0, 1.0))
-        told = f"± {share * abs(high - low):.2g}" if share < LOOSE else "not determined"
+        told = f"± {share * abs(axis.slope(float(place))):.2g}" if share < LOOSE else "not determined"
         rows.append([axis.name, f"{low:.4g} to {high:.4g}", f"{setting.number:.4g}", told])
     return ["parameter (SI)", "range", "fitted", "standard deviation"], rows
 

@@ -23,6 +23,12 @@ from clast.studies.measures import FROM_SUMMARY, MEASURES, unit_of
 LEAST_POINTS = 3
 """Points without which nothing can be fitted."""
 
+RUNS_OUT = 16
+"""Runs that are out at a time where a file does not say how many points are chosen at once."""
+
+ROUNDS = 4
+"""How often, at least, points are then chosen anew."""
+
 CURVE = "curve"
 """Name of the target that is a whole stress-strain curve."""
 
@@ -58,6 +64,10 @@ class CalibrationConfig(Asking):
     grain: Grain = "per_repeat"
     budget: Annotated[int, Field(ge=4, le=1_000_000, description="Runs in all")]
     first: Annotated[Number, Field(gt=0, lt=1, description="Share of the budget for points that fill the space")] = 0.5
+    at_once: Annotated[
+        int | None,
+        Field(ge=1, le=1000, description="Points chosen at a time, once the first ones fill the space"),
+    ] = None
     seed: Annotated[int, Field(ge=0, description="Seed of the points")] = 1
 
     @property
@@ -69,6 +79,14 @@ class CalibrationConfig(Asking):
     def first_points(self) -> int:
         """How many of them fill the space."""
         return max(LEAST_POINTS, round(self.first * self.points))
+
+    @property
+    def together(self) -> int:
+        """How many points are chosen at a time; by default so few that most are chosen by what others gave.
+
+        It does not depend on the workers, because the points that are chosen depend on it.
+        """
+        return self.at_once or max(1, min(RUNS_OUT // self.repeats, (self.points - self.first_points) // ROUNDS))
 
     def problems(self) -> Iterator[Problem]:
         """Bounds, names, units and budgets that cannot be."""

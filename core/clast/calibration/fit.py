@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from clast.calibration.config import CalibrationConfig
 from clast.calibration.identify import Identified, identify
 from clast.calibration.layout import ASKED
-from clast.calibration.proposal import misfit, next_point, optimum
+from clast.calibration.proposal import misfit, next_points, optimum
 from clast.calibration.responses import Goal, Response, goals, respond
 from clast.calibration.surrogate import Surrogate, fit
 from clast.config.scene import SceneConfig
@@ -123,8 +123,8 @@ class Fitting:
         """
         first = quantiles("sobol", self.config.first_points, len(self.axes), self.config.seed)
         self._run(list(first))
-        for share in self._improving():
-            self._run([share])
+        for shares in self._improving():
+            self._run(shares)
         surrogate, known = self._surrogate(), np.array(self.shares)
         best = int(np.argmin(misfit(surrogate.predict(known)[0])))
         responses = self._responses()
@@ -133,12 +133,14 @@ class Fitting:
         identified = identify(surrogate.slopes(known[best]), noise)
         return Fit(self.config, self.axes, self.goals, known, self.rows, responses, surrogate, best, identified)
 
-    def _improving(self) -> Iterator[Floats]:
-        """Return the points after the first, each chosen when all before it are known; the last is the optimum."""
-        left = self.config.points - len(self.shares)
-        for k in range(left):
-            choose = optimum if k == left - 1 else next_point
-            yield choose(self._surrogate(), np.array(self.shares), self.config.seed + len(self.shares))
+    def _improving(self) -> Iterator[list[Floats]]:
+        """Return the points after the first, some at a time, chosen by all that is known; the last is the optimum."""
+        while (left := self.config.points - len(self.shares)) > 0:
+            surrogate, known, seed = self._surrogate(), np.array(self.shares), self.config.seed + len(self.shares)
+            if left == 1:
+                yield [optimum(surrogate, known, seed)]
+            else:
+                yield next_points(surrogate, known, min(self.config.together, left - 1), seed)
 
     def _surrogate(self) -> Surrogate:
         try:

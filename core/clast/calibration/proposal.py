@@ -42,6 +42,15 @@ def next_point(surrogate: Surrogate, known: Floats, seed: int) -> Floats:
     return np.asarray(tried[int(np.argmax(gained))])
 
 
+def next_points(surrogate: Surrogate, known: Floats, count: int, seed: int) -> list[Floats]:
+    """Return some points to run at the same time, each chosen as if those before it gave what is expected of them."""
+    found: list[Floats] = []
+    for k in range(count):
+        found.append(next_point(surrogate, np.array([*known, *found]), seed + k))
+        surrogate = surrogate.believing(found[-1])
+    return found
+
+
 def optimum(surrogate: Surrogate, known: Floats, seed: int) -> Floats:
     """Return the point where the surrogate expects the smallest misfit."""
     from scipy.optimize import minimize

@@ -53,6 +53,21 @@ class Surrogate:
             columns.append((high - low) / (ends[1, axis] - ends[0, axis]))
         return np.column_stack(columns)
 
+    def believing(self, x: Floats) -> Surrogate:
+        """Return what would be expected if a point (d,) gave just what is expected of it: only doubt shrinks there.
+
+        Kriging believer: Ginsbourger, Le Riche and Carraro (2010), doi:10.1007/978-3-642-10701-6_6.
+        """
+        return Surrogate([_believer(process, x[None]) for process in self.processes], self.sizes)
+
+
+def _believer(process: Any, x: Floats) -> Any:
+    """Return a process with its own mean at (1, d) as one more value; lengths and variances stay."""
+    from sklearn.gaussian_process import GaussianProcessRegressor
+
+    again = GaussianProcessRegressor(process.kernel_, alpha=process.alpha, optimizer=None)
+    return again.fit(np.vstack([process.X_train_, x]), np.append(process.y_train_, process.predict(x)))
+
 
 def fit(points: Floats, responses: Sequence[Sequence[Response]], goals: Sequence[Goal]) -> Surrogate:
     """Fit one process a goal: a constant, a linear trend and a smooth rest, with the noise that repeats show.

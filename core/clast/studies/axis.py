@@ -76,6 +76,11 @@ class Axis:
             return self.settings[min(int(share * len(self.settings)), len(self.settings) - 1)]
         return self._number(self._drawn(share) if self.config.distribution is not None else self._between(share))
 
+    def slope(self, share: float) -> float:
+        """Return how the number of a range changes with the share of it, in SI for the whole range."""
+        (low, _), (high, _) = read_quantity(self.config.start), read_quantity(self.config.to)
+        return self._between(share) * log(high / low) if self.config.spacing == "log" else high - low
+
     @property
     def only_drawn(self) -> bool:
         """Whether values are drawn, so that there is no list of them."""

@@ -14,12 +14,15 @@ from click.testing import CliRunner
 from clast import Simulation, load, run_scene
 from clast.calibration.config import load_calibration
 from clast.calibration.identify import identify
-from clast.calibration.proposal import misfit, next_point, optimum
+from clast.calibration.proposal import misfit, next_point, next_points, optimum
 from clast.calibration.record import read_record
 from clast.calibration.responses import Goal, Response
 from clast.calibration.surrogate import fit
 from clast.cli import main
 from clast.errors import ConfigError
+from clast.studies.axis import Axis
+from clast.studies.axis_config import AxisConfig
+from clast.studies.design import quantiles
 from clast.studies.measures import measure
 from tests.scenes import write
 
@@ -168,15 +171,59 @@ def bowl(points: np.ndarray, noise: float) -> list[list[Response]]:
 GOALS = [Goal("sum", "a", False, 0.9, 0.02), Goal("product", "b", False, 0.18, 0.02)]
 
 
-def test_points_are_proposed_where_the_goals_are_met() -> None:
-    from clast.studies.design import quantiles
+def exact_misfit(point: np.ndarray) -> float:
+    return float(misfit((np.array([point[0] + point[1], point[0] * point[1]]) - [0.9, 0.18]) / 0.02))
 
+
+def test_points_are_proposed_where_the_goals_are_met() -> None:
     points = quantiles("sobol", 10, 2, 1)
     for k in range(8):
         points = np.vstack([points, next_point(fit(points, bowl(points, 0.002), GOALS), points, k)])
-    found = optimum(fit(points, bowl(points, 0.002), GOALS), points, 1)
-    meets = misfit((np.array([[found[0] + found[1], found[0] * found[1]]]) - [0.9, 0.18]) / 0.02)
-    assert float(meets[0]) < 1.0
+    assert exact_misfit(optimum(fit(points, bowl(points, 0.002), GOALS), points, 1)) < 1.0
+
+
+def test_points_that_are_chosen_together_differ_and_meet_the_goals_too() -> None:
+    points = quantiles("sobol", 10, 2, 1)
+    for k in range(2):
+        surrogate = fit(points, bowl(points, 0.002), GOALS)
+        chosen = np.array(next_points(surrogate, points, 4, 10 * k))
+        assert len(np.unique(chosen, axis=0)) == 4
+        assert (chosen[0] == next_point(surrogate, points, 10 * k)).all()
+        points = np.vstack([points, chosen])
+    assert exact_misfit(optimum(fit(points, bowl(points, 0.002), GOALS), points, 1)) < 1.0
+
+
+def test_a_belief_takes_doubt_away_and_changes_no_mean_at_its_point() -> None:
+    points = quantiles("sobol", 10, 2, 1)
+    surrogate, new = fit(points, bowl(points, 0.02), GOALS), np.array([[0.95, 0.05]])
+    mean, deviation = surrogate.predict(new)
+    believed, less = surrogate.believing(new[0]).predict(new)
+    assert believed == pytest.approx(mean, abs=1e-6)
+    assert (less < deviation).all()
+
+
+def test_how_many_points_are_chosen_together_follows_from_the_file_alone(tmp_path: Path) -> None:
+    targets = {"peak_force_N": {"value": 5.0}}
+    for keys, count in (
+        ({"budget": 96, "repeats": 4}, 3),
+        ({"budget": 960, "repeats": 4}, 4),
+        ({"budget": 10, "repeats": 1}, 1),
+        ({"budget": 10, "repeats": 1, "at_once": 7}, 7),
+    ):
+        assert load_calibration(calibration_file(tmp_path, targets=targets, **keys)).together == count
+
+
+def test_a_budget_is_kept_however_many_points_are_chosen_together(tmp_path: Path) -> None:
+    file = calibration_file(tmp_path, targets={"peak_force_N": {"value": 5.0}}, budget=8, at_once=50)
+    assert calibrate(file, tmp_path / "out").exit_code == 0
+    assert len((tmp_path / "out" / "history.csv").read_text().splitlines()) == 1 + 8
+
+
+def test_the_deviation_of_a_logarithmic_parameter_is_that_at_its_value() -> None:
+    axis = Axis("x", AxisConfig.model_validate({"from": "2 MPa", "to": "20 MPa", "spacing": "log"}))
+    step = (axis.at(0.5001).number or 0.0) - (axis.at(0.4999).number or 0.0)
+    assert axis.slope(0.5) == pytest.approx(step / 2e-4, rel=1e-6)
+    assert Axis("x", AxisConfig.model_validate({"from": 1, "to": 5})).slope(0.2) == 4.0
 
 
 def test_noise_without_repeats_is_read_from_the_points() -> None:
