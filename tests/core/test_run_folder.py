@@ -10,14 +10,10 @@ import h5py
 import pytest
 
 from clast.results.run_folder import run_folder
-from tests.core.test_messages import clast, said, scene, table
+from tests.core.spoiled import clast, said, scene, table
 from tests.scenes import COLLISION
 
-
-@pytest.fixture(autouse=True)
-def in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Work in a folder of its own, so that messages name files as the user does."""
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("in_an_empty_folder")
 
 
 def test_a_folder_with_anything_but_a_run_is_not_written_into() -> None:
