@@ -125,3 +125,9 @@ def test_a_plugin_that_cannot_be_loaded_is_one_message_with_file_and_line() -> N
     told = said(clast("check", "scene.yaml"))
     assert told.startswith(f"scene.yaml:2:11: plugins.0: {Path('my_law.py').resolve()}:3: SyntaxError")
     assert len(told.splitlines()) == 1
+
+
+@pytest.mark.parametrize("section", ["materials", "walls", "compression", "contacts.pairs"])
+def test_a_section_that_is_no_mapping_is_told_once(section: str) -> None:
+    told = said(clast("check", scene(), "--set", f"{section}=.nan"))
+    assert told == f"--set {section}=.nan: {section}: a mapping 'key: value' is needed; given nan"

@@ -33,7 +33,14 @@ def _section(data: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     return found if isinstance(found, Mapping) else {}
 
 
+def _unreadable(data: Mapping[str, Any], name: str) -> bool:
+    """Tell whether a section is there but no mapping: that is told by itself, and nothing follows from it."""
+    return name in data and not isinstance(data[name], Mapping)
+
+
 def _materials(data: Mapping[str, Any]) -> Iterator[Problem]:
+    if _unreadable(data, "materials"):
+        return
     known = _section(data, "materials")
     for path, name in _materials_used(data):
         if name not in known:
@@ -69,14 +76,14 @@ def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
     compression = _section(data, "compression")
     for key in ("upper", "lower", "side"):
         name = compression.get(key)
-        if isinstance(name, str) and name not in walls:
+        if isinstance(name, str) and name not in walls and not _unreadable(data, "walls"):
             yield Problem(("compression", key), f"there is no wall {name!r}; {suggestion(name, walls)}")
     if "upper" in compression and compression["upper"] == compression.get("lower"):
         yield Problem(("compression", "lower"), "upper and lower must be two different walls")
     if "side" in compression and compression["side"] in (compression.get("upper"), compression.get("lower")):
         yield Problem(("compression", "side"), "the side must be another wall than upper and lower")
     end = _section(_section(data, "time"), "end")
-    if "strain" in end and not compression:
+    if "strain" in end and not compression and not _unreadable(data, "compression"):
         yield Problem(
             ("time", "end", "strain"),
             "a strain needs the section 'compression', which says how it is measured",
@@ -110,10 +117,9 @@ def _pair_names(data: Mapping[str, Any]) -> Iterator[Problem]:
 
 def _pairs_needed(data: Mapping[str, Any]) -> Iterator[Problem]:
     contacts = data.get("contacts")
-    if not isinstance(contacts, Mapping):
+    if not isinstance(contacts, Mapping) or _unreadable(contacts, "pairs"):
         return
-    pairs = contacts.get("pairs")
-    given = pairs if isinstance(pairs, Mapping) else {}
+    given = _section(contacts, "pairs")
     if "default" in given:
         return
     grains = sorted({name for _, name in _named_material(data.get("particles"), ())})
