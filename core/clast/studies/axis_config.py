@@ -2,13 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from math import isfinite
+from numbers import Real
 from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Discriminator, Field, PlainValidator, Tag, model_validator
 
+from clast.config.problems import short
 from clast.parts.params import Params
 
-Given = Annotated[float | str, Field(description="A number, or a text of number and unit")]
+
+def _number_or_text(given: Any) -> float | str:
+    if isinstance(given, str):
+        return given
+    if isinstance(given, bool) or not isinstance(given, Real) or not isfinite(given):
+        raise ValueError(f"a finite number, or a text of number and unit, is needed; given {short(given)}")
+    return float(given)
+
+
+Given = Annotated[
+    float | str, PlainValidator(_number_or_text), Field(description="A number, or a text of number and unit")
+]
+
+BY_NAME, OTHERWISE = Tag("<by name>"), Tag("<otherwise>")
+
+
+def _shape(given: Any) -> str:
+    return (BY_NAME if isinstance(given, Mapping) else OTHERWISE).tag
+
+
+MAPPING_OR_NOT = Discriminator(_shape)
+"""Chooses by its looks what a value is to be, so that what is wrong with it is told once."""
+
+Keys = Annotated[Annotated[dict[str, float], BY_NAME] | Annotated[tuple[str, ...], OTHERWISE], MAPPING_OR_NOT]
+Values = Annotated[
+    Annotated[dict[str, Any], Field(min_length=1), BY_NAME] | Annotated[list[Any], Field(min_length=1), OTHERWISE],
+    MAPPING_OR_NOT,
+]
 
 
 class AxisConfig(Params):
@@ -17,7 +48,7 @@ class AxisConfig(Params):
     model_config = ConfigDict(populate_by_name=True)
 
     keys: Annotated[
-        dict[str, float] | tuple[str, ...] | None,
+        Keys | None,
         Field(
             description="Keys that the value is given to, all alike or each times a factor; else the axis is the key"
         ),
@@ -25,9 +56,7 @@ class AxisConfig(Params):
     scales: Annotated[
         tuple[str, ...], Field(description="Keys whose value, as it is at the point, is multiplied by this one")
     ] = ()
-    values: Annotated[
-        list[Any] | dict[str, Any] | None, Field(min_length=1, description="Values, or values by name")
-    ] = None
+    values: Annotated[Values | None, Field(description="Values, or values by name")] = None
     start: Annotated[Given | None, Field(alias="from", description="First value of a range")] = None
     to: Annotated[Given | None, Field(description="Last value of a range")] = None
     points: Annotated[int | None, Field(ge=1, le=100_000, description="Values of a range, both ends included")] = None

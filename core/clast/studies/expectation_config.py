@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from clast.config.quantities import Number
 from clast.parts.params import Params
-from clast.studies.axis_config import Given
+from clast.studies.axis_config import BY_NAME, MAPPING_OR_NOT, OTHERWISE, Given
 
 CURVES = "curves"
 """Name of the measure that is the whole stress-strain curve."""
@@ -29,7 +29,7 @@ class Range(Params):
         return self
 
 
-Selection = dict[str, Range | float | str]
+Selection = dict[str, Annotated[Annotated[Range, BY_NAME] | Annotated[Given, OTHERWISE], MAPPING_OR_NOT]]
 
 
 class Expectation(Params):
