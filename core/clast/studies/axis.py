@@ -13,6 +13,9 @@ from clast.config.units import Dimension, si_unit
 from clast.maths.distributions import weibull_deviation
 from clast.studies.axis_config import AxisConfig
 
+LEAST_KEPT = 1e-6
+"""Share of a distribution that its ends must leave: beyond, quantiles are lost in rounding."""
+
 
 @dataclass(frozen=True)
 class Setting:
@@ -121,9 +124,14 @@ class Axis:
         return low + share * (high - low)
 
     def _drawn(self, share: float) -> float:
+        low, high = self._kept()
+        return float(self._distribution().ppf(low + share * (high - low)))
+
+    def _kept(self) -> tuple[float, float]:
+        """Return the quantiles of the whole distribution at which it is cut off."""
         found = self._distribution()
-        low, high = (found.cdf(read_quantity(each)[0]) if each is not None else k for k, each in self._cuts())
-        return float(found.ppf(low + share * (high - low)))
+        low, high = (float(found.cdf(read_quantity(each)[0])) if each is not None else k for k, each in self._cuts())
+        return low, high
 
     def _distribution(self) -> Any:
         """Return the distribution of scipy with this mean and deviation."""
@@ -162,6 +170,14 @@ class Axis:
         mean, deviation = self._moments()
         if deviation <= 0.0 or (mean <= 0.0 and self.config.distribution != "normal"):
             raise ValueError(f"a {self.config.distribution} distribution needs a deviation and a mean above 0")
+        low, high = self._kept()
+        if high - low < LEAST_KEPT:
+            cuts = {"at_least": self.config.at_least, "at_most": self.config.at_most}
+            told = " and ".join(f"{name} {each}" for name, each in cuts.items() if each is not None)
+            raise ValueError(
+                f"{told}: next to nothing of the distribution with mean {self.config.mean} and deviation "
+                f"{self.config.deviation} lies there; choose other cut-offs"
+            )
 
 
 def _dimension(config: AxisConfig) -> Dimension | None:

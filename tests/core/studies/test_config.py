@@ -18,6 +18,10 @@ YIELD = "bonds.model.yield_stress"
 STATEMENT = {"says": "x", "check": "equals", "measure": "peak_stress_Pa", "value": "3 MPa"}
 
 
+NAN = float("nan")
+DRAWN = {"distribution": "normal", "mean": "5 MPa", "deviation": "0.1 MPa"}
+
+
 @pytest.mark.parametrize(
     ("keys", "told"),
     [
@@ -97,3 +101,48 @@ def test_a_scene_that_is_taken_for_a_study_is_told(tmp_path: Path) -> None:
 def test_a_study_without_axes_is_repeats_alone(tmp_path: Path) -> None:
     assert points(study(tmp_path)) == [()]
     assert len(tasks(study(tmp_path, repeats=3, grain="per_repeat"))) == 3
+
+
+@pytest.mark.parametrize(
+    ("keys", "place"),
+    [
+        ({"vary": {YIELD: {"from": NAN, "to": 3, "points": 2}}}, f"vary.{YIELD}.from"),
+        ({"vary": {YIELD: DRAWN | {"mean": NAN}}, "design": "sobol", "points": 4}, f"vary.{YIELD}.mean"),
+        ({"vary": {"m": {"keys": {YIELD: NAN}, "values": [1]}}}, f"vary.m.keys.{YIELD}"),
+        ({"vary": {"m": {"keys": [YIELD], "values": NAN}}}, "vary.m.values"),
+        ({"vary": {YIELD: [1]}, "expect": [STATEMENT | {"value": NAN}]}, "expect.0.value"),
+        ({"vary": {YIELD: [1]}, "expect": [STATEMENT | {"where": {YIELD: NAN}}]}, f"expect.0.where.{YIELD}"),
+        ({"vary": {YIELD: [1]}, "expect": [STATEMENT | {"where": {YIELD: {"above": NAN}}}]}, f"where.{YIELD}.above"),
+    ],
+)
+def test_what_is_no_number_is_told_once(tmp_path: Path, keys: dict[str, Any], place: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        study(tmp_path, **keys)
+    (line,) = str(caught.value).splitlines()
+    assert place in line
+    assert line.endswith("given nan")
+
+
+@pytest.mark.parametrize(
+    ("kind", "cuts", "told"),
+    [
+        ("normal", {"at_least": "9 MPa"}, "at_least 9 MPa"),
+        ("normal", {"at_most": "1 kPa"}, "at_most 1 kPa"),
+        ("lognormal", {"at_most": "-3 MPa"}, "at_most -3 MPa"),
+        ("weibull", {"at_most": "0 MPa"}, "at_most 0 MPa"),
+        ("normal", {"at_least": "6 MPa", "at_most": "4 MPa"}, "at_least 6 MPa and at_most 4 MPa"),
+    ],
+)
+def test_cut_offs_that_leave_nothing_of_a_distribution_are_told(
+    tmp_path: Path, kind: str, cuts: dict[str, str], told: str
+) -> None:
+    drawn = DRAWN | {"distribution": kind} | cuts
+    with pytest.raises(ConfigError, match=rf"vary\.{YIELD}: {told}: next to nothing of the distribution") as caught:
+        tasks(study(tmp_path, vary={YIELD: drawn}, design="sobol", points=4))
+    assert "inf" not in str(caught.value)
+
+
+def test_cut_offs_that_leave_something_are_kept(tmp_path: Path) -> None:
+    drawn = DRAWN | {"at_least": "5.05 MPa", "at_most": "5.1 MPa"}
+    found = points(study(tmp_path, vary={YIELD: drawn}, design="random", points=40))
+    assert all(5.05e6 <= (setting.number or 0.0) <= 5.1e6 for (setting,) in found)
