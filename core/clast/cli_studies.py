@@ -7,13 +7,21 @@ from pathlib import Path
 import click
 
 change_option = click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Change one value.")
+scene_option = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Change one value of the scene all runs start from.",
+)
+AGAIN = "the same command goes on from here"
 _workers = click.option("--workers", type=click.IntRange(min=1), show_default="one a processor", help="Runs at a time.")
 
 
 @click.command()
 @click.argument("file", metavar="STUDY", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the study; runs/NAME, if not given.")
-@change_option
+@scene_option
 @_workers
 @click.option("--executor", type=click.Choice(["local", "dask"]), default="local", show_default=True)
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler, as tcp://head:8786; else one on this machine.")
@@ -45,8 +53,10 @@ def sweep(
     if way == "prepare":
         sweep_command.print_prepared(folder, prepare(study, folder))
         return
+    if way == "collect":
+        sweep_command.find_study(folder)
     maker = executors.local(workers) if executor == "local" else executors.dask(scheduler, workers)
-    with stoppable():
+    with stoppable(AGAIN):
         outcome = sweep_command.sweep(study, folder, None if way == "collect" else maker)
     sweep_command.print_outcome(outcome)
     if sweep_command.failures(outcome):
@@ -78,7 +88,7 @@ def reproduce(
 
     manuscript = read_manuscript(name)
     maker = None if collect else executors.local(workers)
-    with stoppable():
+    with stoppable(AGAIN):
         folder = runs or Path("runs") / manuscript.folder.resolve().name
         reproduce_command.reproduce(manuscript, folder, output, maker, only)
     click.echo(f"wrote {output}")
@@ -87,7 +97,7 @@ def reproduce(
 @click.command()
 @click.argument("file", metavar="TASK", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder of the runs; runs/NAME, if not given.")
-@change_option
+@scene_option
 @_workers
 def calibrate(file: Path, output: Path | None, overrides: tuple[str, ...], workers: int | None) -> None:
     """Fit the parameters that TASK names to what was measured; what is done is not repeated."""
@@ -97,7 +107,7 @@ def calibrate(file: Path, output: Path | None, overrides: tuple[str, ...], worke
     from clast.studies import executors
 
     config = load_calibration(file, overrides)
-    with stoppable():
+    with stoppable(AGAIN):
         calibrate_command.calibrate(config, output or Path("runs") / config.calibration, executors.local(workers))
 
 

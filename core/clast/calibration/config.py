@@ -88,6 +88,12 @@ class CalibrationConfig(Asking):
         """
         return self.at_once or max(1, min(RUNS_OUT // self.repeats, (self.points - self.first_points) // ROUNDS))
 
+    def sets(self) -> Iterator[str]:
+        """Return the keys of the scene that the calibration itself gives a value to."""
+        yield from self.set
+        for name, axis in self.parameters.items():
+            yield from axis.sets(name)
+
     def problems(self) -> Iterator[Problem]:
         """Bounds, names, units and budgets that cannot be."""
         yield from _problems(self)

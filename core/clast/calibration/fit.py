@@ -19,7 +19,6 @@ from clast.config.scene import SceneConfig
 from clast.errors import ConfigError
 from clast.studies.axis import Axis
 from clast.studies.conduct import Audience, conduct, states
-from clast.studies.config import QUIET
 from clast.studies.design import Point, quantiles
 from clast.studies.executors import Workers
 from clast.studies.prepare import settle
@@ -103,7 +102,7 @@ class Fitting:
         self.config, self.folder, self.workers, self.audience = config, folder, workers, audience
         self.axes = [self._axis(name) for name in config.parameters]
         self.goals = goals(config)
-        self.scene = changed(config, config.scene, {**QUIET, **config.set}, ("set",))
+        self.scene = changed(config, config.scene, config.changes, ("set",))
         self.shares: list[Floats] = []
         self.rows: list[list[Row]] = []
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from clast.commands.live_bar import LiveBar
+from clast.errors import RunError
 from clast.forecast import duration
 from clast.results.run_folder import locked
 from clast.studies import layout
@@ -57,6 +58,19 @@ def sweep(study: StudyConfig, folder: Path, maker: Maker | None) -> StudyOutcome
         if row.task.name not in results:  # what failed just now was told at once
             print(f"failed: {row.task.name}: {row.reason}")
     return outcome
+
+
+def find_study(folder: Path) -> None:
+    """Refuse to gather runs where none can be.
+
+    Raises
+    ------
+    RunError
+        If the folder is none of a study.
+    """
+    if not (folder / layout.STUDY).is_file():
+        found = "holds no study" if folder.exists() else "there is no such folder"
+        raise RunError(f"{folder}: {found}, so there is nothing to gather; name its folder with -o, or run it first")
 
 
 class Lines(Audience):
@@ -164,7 +178,8 @@ def print_outcome(outcome: StudyOutcome) -> None:
         said = f"{verdict.expectation.says}" + (f" [{verdict.variant}]" if verdict.variant else "")
         console.print(f"{verdict.verdict}: ", style=COLOURS[verdict.verdict], end="", highlight=False)
         console.print(f"{said}: {verdict.evidence}", highlight=False, markup=False, soft_wrap=True)
-    console.print(outcome.told(), highlight=False)
+    for told in filter(None, (outcome.told(), outcome.open_peaks())):
+        console.print(told, highlight=False, markup=False, soft_wrap=True)
     for path in outcome.written:
         console.print(f"  {path}", highlight=False, soft_wrap=True)
 

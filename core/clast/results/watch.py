@@ -31,20 +31,26 @@ class RunInterruptedError(RunError):
 class StopError(KeyboardInterrupt):
     """A signal asked to stop: what Ctrl-C raises in Python, for SIGTERM too."""
 
-    def __init__(self, number: int) -> None:
-        super().__init__(f"stopped by {signal.Signals(number).name}")
+    def __init__(self, number: int, advice: str = "") -> None:
+        super().__init__("; ".join(filter(None, (f"stopped by {signal.Signals(number).name}", advice))))
         self.exit_code = 128 + number
         self.number = number
 
 
-def _raise_stop(number: int, frame: FrameType | None) -> NoReturn:
-    raise StopError(number)
-
-
 @contextmanager
-def stoppable() -> Iterator[None]:
-    """Let SIGINT and SIGTERM raise :class:`StopError` meanwhile, so that everything opened is closed on the way out."""
-    with signals_to(_raise_stop):
+def stoppable(advice: str = "") -> Iterator[None]:
+    """Let SIGINT and SIGTERM raise :class:`StopError` meanwhile, so that everything opened is closed on the way out.
+
+    Parameters
+    ----------
+    advice : str
+        How to go on, for whoever stops it.
+    """
+
+    def stop(number: int, frame: FrameType | None) -> NoReturn:
+        raise StopError(number, advice)
+
+    with signals_to(stop):
         yield
 
 

@@ -22,6 +22,9 @@ Grain = Annotated[
     Field(description="One packing in all runs, one for each repeat, or another one in every run"),
 ]
 
+QUIET = {"output.writers": [], "output.frames": 0}
+"""What a run leaves out, unless someone says otherwise: it is one of many, and its curves tell."""
+
 
 class Asking(Params):
     """What every such file says, validated; made by :func:`read_asking`."""
@@ -43,9 +46,20 @@ class Asking(Params):
         """The base scene, with what the command line changes."""
         return self._scene
 
+    @property
+    def changes(self) -> dict[str, Any]:
+        """Changes of the scene in all runs, with what such a run leaves out."""
+        given = self._scene.document.overridden
+        quiet = {key: value for key, value in QUIET.items() if tuple(key.split(".")) not in given}
+        return quiet | self.set
+
     def problem(self, path: KeyPath, text: str) -> ConfigError:
         """Error for the caller to raise, with its place in the file in front."""
         return ConfigError(self._document.report([Problem(path, text)]), at=None)
+
+    def sets(self) -> Iterator[str]:
+        """Return the keys of the scene that the file itself gives a value to."""
+        yield from self.set
 
     def problems(self) -> Iterator[Problem]:
         """Return what is wrong although every value by itself is right; called before the scene is read."""
@@ -85,8 +99,30 @@ def read_asking(model: type[Asked], name: str, document: Document, overrides: It
     base = document.folder / found.base
     if not base.is_file():
         raise found.problem(("base",), f"{found.base!r}: no such file; the path starts at the folder of this file")
-    found._scene = load(base, overrides)
+    given = list(overrides)
+    _refuse_what_is_no_scene(model, document, given)
+    found._scene = load(base, given)
+    _refuse_what_is_lost(found)
     return found
+
+
+def _refuse_what_is_no_scene(model: type[Asking], document: Document, overrides: Iterable[str]) -> None:
+    """Refuse to change on the command line what only the file that asks for runs has."""
+    for override in overrides:
+        key = override.partition("=")[0].strip().split(".")[0]
+        if key in model.model_fields and key not in SceneConfig.model_fields:
+            raise ConfigError(
+                f"--set {override}: changes the scene that all runs start from, and {key!r} is no key of it; "
+                f"change it in {document.name}"
+            )
+
+
+def _refuse_what_is_lost(found: Asking) -> None:
+    """Refuse to change on the command line what the file sets anyway."""
+    for key in found.sets():
+        written = found.scene.document.overridden.get(tuple(key.split(".")))
+        if written is not None:
+            raise ConfigError(f"{written}: {found.document.name} sets this key itself; change it there")
 
 
 def read_for(path: str | Path, foreign: Iterable[str], needed: str, advice: str) -> Document:

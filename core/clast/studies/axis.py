@@ -64,9 +64,8 @@ class Axis:
     def __init__(self, name: str, config: AxisConfig) -> None:
         self.name, self.config = name, config
         self.dimension = _dimension(config)
-        keys = config.keys if config.keys is not None else () if config.scales else (name,)
-        self.factors = dict(keys) if isinstance(keys, dict) else dict.fromkeys(keys, 1.0)
-        self._scaled = isinstance(keys, dict)
+        self._scaled = isinstance(config.keys, dict)
+        self.factors = dict(config.keys) if isinstance(config.keys, dict) else dict.fromkeys(config.sets(name), 1.0)
         if config.distribution is not None:
             self._check_distribution()
         elif config.values is None:

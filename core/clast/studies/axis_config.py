@@ -69,6 +69,12 @@ class AxisConfig(Params):
     at_least: Annotated[Given | None, Field(description="Where the distribution is cut off below")] = None
     at_most: Annotated[Given | None, Field(description="Where the distribution is cut off above")] = None
 
+    def sets(self, name: str) -> tuple[str, ...]:
+        """Return the keys that are given the value, where the axis has this name."""
+        if self.scales:
+            return ()
+        return (name,) if self.keys is None else tuple(self.keys)
+
     @model_validator(mode="before")
     @classmethod
     def _list_is_values(cls, given: Any) -> Any:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from clast.errors import RunError
 from clast.studies.executors import Workers
-from clast.studies.layout import STOP, run_of
+from clast.studies.layout import STOP, failure_of, run_of
 from clast.studies.work import DONE, FAILED, Result, is_done, perform
 
 STRIKES = 2
@@ -79,12 +79,23 @@ def conduct(folder: Path, names: Sequence[str], workers: Workers, audience: Audi
                 left.append(name)
             else:
                 found[name] = Result(name, FAILED, _DIED.format(count=strikes[name]), 0.0)
-                audience.ended(found[name])
+                _tell(folder, found[name], audience)
         left = deque(sorted(left, key=lambda name: strikes[name] > 0))
     return found
 
 
 _DIED = "{count} workers died with this run: out of memory, or a crash in a library; 'clast check' tells what it needs"
+
+
+def _tell(folder: Path, result: Result, audience: Audience) -> None:
+    """Tell how a run ended, and leave the reason of a failure for whoever gathers the runs later."""
+    failure = failure_of(folder, result.name)
+    if result.state == FAILED:
+        failure.parent.mkdir(exist_ok=True)
+        failure.write_text(f"{result.reason}\n", encoding="utf-8")
+    else:
+        failure.unlink(missing_ok=True)
+    audience.ended(result)
 
 
 class _Shift:
@@ -132,7 +143,7 @@ class _Shift:
         for future in ended:
             result = self._result(future)
             self.found[self.running.pop(future)] = result
-            audience.ended(result)
+            _tell(self.folder, result, audience)
 
     def _result(self, future: Future[Result]) -> Result:
         try:
@@ -165,8 +176,13 @@ class _Shift:
 
 def states(folder: Path, names: Sequence[str], found: dict[str, Result]) -> dict[str, Result]:
     """Return how every run of a study stands: as told, or as its folder shows."""
-    known = dict(found)
-    for name in names:
-        if name not in known:
-            known[name] = Result(name, DONE if is_done(folder, name) else "not run", "", 0.0)
-    return known
+    return {name: found[name] if name in found else _as_left(folder, name) for name in names}
+
+
+def _as_left(folder: Path, name: str) -> Result:
+    failure = failure_of(folder, name)
+    if is_done(folder, name):
+        return Result(name, DONE, "", 0.0)
+    if failure.is_file():
+        return Result(name, FAILED, failure.read_text(encoding="utf-8").strip(), 0.0)
+    return Result(name, "not run", "", 0.0)

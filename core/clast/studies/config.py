@@ -19,9 +19,6 @@ from clast.studies.measures import FROM_SUMMARY, MEASURES, unit_of
 
 SPACE_FILLING = ("latin_hypercube", "sobol", "random")
 
-QUIET = {"output.writers": [], "output.frames": 0}
-"""What a run of a study leaves out, unless ``set`` says otherwise: it is one of many, and its curves tell."""
-
 
 class StudyConfig(Asking):
     """A study, validated; made by :func:`load_study`."""
@@ -60,6 +57,14 @@ class StudyConfig(Asking):
     def variant_changes(self) -> dict[str, Mapping[str, Any]]:
         """Changes by the name of their variant; one without a name, where the study has none."""
         return dict(self.variants) or {"": {}}
+
+    def sets(self) -> Iterator[str]:
+        """Return the keys of the scene that the study itself gives a value to."""
+        yield from self.set
+        for changes in self.variants.values():
+            yield from changes
+        for name, axis in self.vary.items():
+            yield from axis.sets(name)
 
     def problems(self) -> Iterator[Problem]:
         """Names in statements that are no axis, no variant and no measure."""

@@ -23,6 +23,11 @@ def scene_of(folder: Path, name: str) -> Path:
     return folder / "scenes" / f"{name}.yaml"
 
 
+def failure_of(folder: Path, name: str) -> Path:
+    """Return the file that tells why a run failed when it was last tried."""
+    return folder / "failed" / f"{name}.txt"
+
+
 def run_of(folder: Path, name: str) -> Path:
     """Return the folder of a run."""
     return folder / "runs" / name

@@ -13,7 +13,7 @@ from clast.config.quantities import read_quantity
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import ConfigError, KeyPath
-from clast.studies.config import QUIET, StudyConfig
+from clast.studies.config import StudyConfig
 from clast.studies.design import Point, axes, points
 
 LONGEST = 48
@@ -65,7 +65,7 @@ def tasks(study: StudyConfig) -> list[Task]:
     for variant, own in study.variant_changes.items():
         place = ("variants", variant) if variant else ("set",)
         _refuse_what_is_varied(study, own, place)
-        scene = changed(study, study.scene, {**QUIET, **study.set, **own}, place)
+        scene = changed(study, study.scene, study.changes | dict(own), place)
         for number, point in enumerate(points(study)):
             here = at_point(study, scene, point, "vary")
             found += repeated(here, variant, number, point, study.repeats, study.grain)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from clast.errors import ConfigError
 from clast.studies.config import load_study
@@ -146,3 +147,34 @@ def test_cut_offs_that_leave_something_are_kept(tmp_path: Path) -> None:
     drawn = DRAWN | {"at_least": "5.05 MPa", "at_most": "5.1 MPa"}
     found = points(study(tmp_path, vary={YIELD: drawn}, design="random", points=40))
     assert all(5.05e6 <= (setting.number or 0.0) <= 5.1e6 for (setting,) in found)
+
+
+@pytest.mark.parametrize("override", ["repeats=3", "vary.x=[1]", "set={}", "points=4"])
+def test_what_the_study_alone_has_is_not_changed_on_the_command_line(tmp_path: Path, override: str) -> None:
+    key = override.split("=")[0].split(".")[0]
+    told = f"--set {override}: changes the scene that all runs start from, and {key!r} is no key of it; change it in "
+    with pytest.raises(ConfigError) as caught:
+        load_study(study_file(tmp_path, vary={YIELD: ["1 MPa"]}), [override])
+    assert str(caught.value) == told + str(tmp_path / "try.yaml")
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"vary": {YIELD: ["1 MPa"]}},
+        {"vary": {"strength": {"keys": [YIELD], "values": ["1 MPa"]}}},
+        {"set": {YIELD: "1 MPa"}},
+        {"variants": {"soft": {YIELD: "1 MPa"}}},
+    ],
+)
+def test_what_the_study_sets_anyway_is_not_changed_on_the_command_line(tmp_path: Path, keys: dict[str, Any]) -> None:
+    with pytest.raises(ConfigError, match=rf"--set {YIELD}=3 MPa: .*try\.yaml sets this key itself; change it there"):
+        load_study(study_file(tmp_path, **keys), [f"{YIELD}=3 MPa"])
+
+
+def test_a_change_on_the_command_line_reaches_every_run(tmp_path: Path) -> None:
+    file = study_file(tmp_path, vary={YIELD: {"scales": [YIELD], "values": [1, 2]}})
+    given = load_study(file, [f"{YIELD}=3 MPa", "output.frames=7"])
+    scenes = [yaml.safe_load(each.scene) for each in tasks(given)]
+    assert [scene["bonds"]["model"]["yield_stress"] for scene in scenes] == [3e6, 6e6]
+    assert [scene["output"]["frames"] for scene in scenes] == [7, 7]

@@ -108,14 +108,44 @@ def test_runs_of_a_job_array_are_gathered(tmp_path: Path) -> None:
     assert [row["state"] for row in rows(tmp_path / "out")] == ["done", "not run"]
 
 
+@pytest.mark.parametrize(("made", "told"), [(False, "there is no such folder"), (True, "holds no study")])
+def test_a_folder_without_a_study_has_nothing_to_gather(tmp_path: Path, made: bool, told: str) -> None:
+    if made:
+        (tmp_path / "out").mkdir()
+    result = sweep(study_file(tmp_path, vary={YIELD: ["1 MPa"]}), tmp_path / "out", "--collect")
+    assert result.exit_code == 1
+    assert f"{tmp_path / 'out'}: {told}, so there is nothing to gather" in result.output
+    assert (tmp_path / "out").exists() == made
+    assert not list((tmp_path / "out").glob("*"))
+
+
+def test_a_failure_is_forgotten_when_the_run_is_done_after_all(tmp_path: Path) -> None:
+    file = study_file(tmp_path, set=QUICK, vary={YIELD: ["1 MPa"]})
+    sweep(file, tmp_path / "out", "--prepare")
+    (name,) = (tmp_path / "out" / "tasks.txt").read_text().split()
+    scene = tmp_path / "out" / "scenes" / f"{name}.yaml"
+    text = scene.read_text()
+    scene.write_text("nonsense: 1")
+    assert sweep(file, tmp_path / "out").exit_code == 1
+    assert [row["state"] for row in rows(tmp_path / "out")] == ["failed"]
+    scene.write_text(text)
+    assert sweep(file, tmp_path / "out").exit_code == 0
+    assert sweep(file, tmp_path / "out", "--collect").exit_code == 0
+
+
 def test_a_run_that_fails_costs_itself_alone(tmp_path: Path) -> None:
     vary = {"time.step": ["1e-7 s", "1e-5 s"]}  # the second is far above the limit
-    told = sweep(study_file(tmp_path, set=QUICK, vary=vary), tmp_path / "out")
+    file = study_file(tmp_path, set=QUICK, vary=vary)
+    told = sweep(file, tmp_path / "out")
     assert told.exit_code == 1, told.output
     first, second = rows(tmp_path / "out")
     assert (first["state"], second["state"]) == ("done", "failed")
     assert "limit" in second["reason"]
     assert "failed: 1e-5_s-" in told.output
+    gathered = sweep(file, tmp_path / "out", "--collect")
+    assert gathered.exit_code == 1
+    assert "failed: 1e-5_s-" in gathered.output
+    assert rows(tmp_path / "out") == [first, second]
 
 
 def test_a_worker_that_dies_costs_its_run_alone(tmp_path: Path) -> None:
@@ -131,6 +161,8 @@ def test_a_worker_that_dies_costs_its_run_alone(tmp_path: Path) -> None:
     found = rows(tmp_path / "out")
     assert [row["state"] for row in found] == ["done"] * 2 + ["failed"] * 2 + ["done"] * 2, told.output
     assert "workers died with this run" in found[2]["reason"]
+    sweep(file, tmp_path / "out", "--collect")
+    assert rows(tmp_path / "out") == found
 
 
 def wait_for(what: Any, process: subprocess.Popen[str]) -> None:
@@ -147,12 +179,15 @@ def test_a_study_that_is_stopped_goes_on_from_there(tmp_path: Path, number: int)
     file = study_file(tmp_path, vary={YIELD: ["1 MPa", "2 MPa"]}, set={"time.end.strain": 0.1})
     whole = tmp_path / "whole"
     command = [*CLAST, "sweep", str(file), "-o", str(tmp_path / "out"), "--workers", "2"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     runs = tmp_path / "out" / "runs"
     wait_for(lambda: len(list(runs.glob("*/checkpoint.h5"))) == 2, process)
     os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
-    output, _ = process.communicate(timeout=60)
+    output, last = process.communicate(timeout=60)
     assert process.returncode == 128 + number
+    assert last.splitlines()[-1] == f"stopped by {number.name}; the same command goes on from here"
     assert not (tmp_path / "out" / "stop").exists()
     assert {row["state"] for row in rows(tmp_path / "out")} <= {"stopped", "not run", "done"}, output
     again = sweep(file, tmp_path / "out")
