@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from clast.studies.outcome import StudyOutcome
 from clast.studies.verdict import NOT_REPRODUCED, OPEN, REPRODUCED, Verdict
-from clast.studies.work import DONE
+from clast.studies.work import DONE, FAILED
 
 MARKS = {REPRODUCED: "**reproduced**", NOT_REPRODUCED: "not reproduced", OPEN: "not decidable"}
 
@@ -21,6 +21,8 @@ def section(outcome: StudyOutcome, image: str | None) -> str:
         counts = {row.state: sum(each.state == row.state for each in lost) for row in lost}
         told = ", ".join(f"{count} {state}" for state, count in counts.items())
         parts.append(f"Of {len(outcome.table.rows)} runs: {told}. {reasons(outcome)}".rstrip())
+    if outcome.open_peaks():
+        parts.append(f"{outcome.open_peaks()}.")
     if outcome.verdicts:
         rows = [
             [each.expectation.says, each.variant or "–", MARKS[each.verdict], each.evidence]
@@ -59,7 +61,10 @@ def statements(outcomes: Mapping[str, StudyOutcome]) -> str:
 
 
 def _mark(outcome: StudyOutcome, verdict: Verdict) -> str:
-    return MARKS[verdict.verdict] if outcome.table.done(verdict.variant) else "not run"
+    if outcome.table.done(verdict.variant):
+        return MARKS[verdict.verdict]
+    states = {row.state for row in outcome.table.rows if row.task.variant == verdict.variant}
+    return "all runs failed" if states == {FAILED} else "not run"
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -23,6 +23,9 @@ COLUMNS = {
 }
 """What the table of points shows: head, factor, decimals."""
 
+INSIDE = "peak_inside"
+"""The measure that tells whether a run has seen its peak."""
+
 MOST_LINES = 32
 """Points of a variant that a table shows one by one."""
 
@@ -55,6 +58,17 @@ class StudyOutcome:
             return [([setting.label for setting in runs[0].task.settings], runs) for _, runs in points]
         every = [row for _, runs in points for row in runs]
         return [(["all" for _ in self.table.axes], every)]
+
+    def open_peaks(self) -> str:
+        """Return how many runs ended before their peak was behind them, in words; empty where none did."""
+        done = self.table.done()
+        count = sum(row.measures.get(INSIDE) == 0.0 for row in done)
+        if not count:
+            return ""
+        return (
+            f"{count} of {len(done)} runs ended before their stress had fallen by a fifth from its peak "
+            f"({INSIDE} is 0): a later, higher peak is not ruled out; a larger time.end.strain tells"
+        )
 
     def told(self) -> str:
         """Return how many runs ended how."""

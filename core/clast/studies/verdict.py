@@ -18,6 +18,7 @@ from clast.studies.measures import unit_of
 from clast.studies.selection import meets
 from clast.studies.statistics import deviation_interval, statistic, values_of
 from clast.studies.table import Row, Table, curves
+from clast.studies.work import FAILED
 
 REPRODUCED, NOT_REPRODUCED, OPEN = "reproduced", "not reproduced", "not decidable"
 LEVEL = 0.05
@@ -43,10 +44,27 @@ def judge(table: Table, expectations: Sequence[Expectation]) -> list[Verdict]:
     for expectation in expectations:
         for variant in table.variants:
             if not expectation.variants or variant in expectation.variants:
-                rows = chosen(table.done(variant), expectation.where)
-                verdict, evidence = CHECKS[expectation.check](expectation, rows, table.done(variant))
-                found.append(Verdict(expectation, variant, verdict, evidence))
+                found.append(_judged(table, expectation, variant))
     return found
+
+
+def _judged(table: Table, expectation: Expectation, variant: str) -> Verdict:
+    asked = [row for row in table.rows if row.task.variant == variant]
+    meant = [row for row in asked if _is_meant(row, expectation)]
+    failed = [row for row in meant if row.state == FAILED]
+    if failed and len(failed) == len(meant):
+        return Verdict(expectation, variant, OPEN, f"all {len(failed)} runs failed: {failed[0].reason}")
+    every = table.done(variant)
+    verdict, evidence = CHECKS[expectation.check](expectation, chosen(every, expectation.where), every)
+    if failed and verdict == OPEN:
+        evidence += f"; {len(failed)} of {len(meant)} runs failed: {failed[0].reason}"
+    return Verdict(expectation, variant, verdict, evidence)
+
+
+def _is_meant(row: Row, expectation: Expectation) -> bool:
+    """Tell whether a statement is about a run, or compares with it."""
+    selections = [expectation.where, *([expectation.than] if expectation.than else [])]
+    return any(chosen([row], each) for each in selections)
 
 
 def chosen(rows: Sequence[Row], selection: Selection) -> list[Row]:

@@ -122,6 +122,34 @@ def test_what_is_missing_is_not_decidable() -> None:
     assert verdict(empty, check="larger", measure="m", where={"x": 1}, than={"x": 2}) == OPEN
 
 
+def failing(found: Table, *which: float) -> Table:
+    """Return the same runs, of which those at some points failed."""
+    lost = [row for row in found.rows if row.value("x") in which]
+    return Table([Row(row.task, "failed", "the step is too long") if row in lost else row for row in found.rows])
+
+
+def evidence(found: Table, **keys: Any) -> str:
+    """Return what one statement is judged by."""
+    return judge(found, [Expectation.model_validate({"says": "so", **keys})])[0].evidence
+
+
+def test_a_statement_about_runs_that_all_failed_says_so_and_why() -> None:
+    found = table(lambda x: x, 0.2, repeats=2, points=(1.0, 2.0))
+    grows = {"check": "grows", "measure": "m"}
+    assert evidence(failing(found, 1.0, 2.0), **grows) == "all 4 runs failed: the step is too long"
+    where = {"check": "equals", "measure": "m", "value": 2.0, "where": {"x": 2}}
+    assert evidence(failing(found, 2.0), **where) == "all 2 runs failed: the step is too long"
+    assert "failed" not in evidence(failing(found, 1.0), **where)
+
+
+def test_a_statement_that_runs_which_failed_leave_open_says_so_and_why() -> None:
+    found = failing(table(lambda x: x, 0.2, repeats=2, points=(1.0, 2.0)), 2.0)
+    told = evidence(found, check="grows", measure="m")
+    assert told == "fewer than two points have results; 2 of 4 runs failed: the step is too long"
+    told = evidence(found, check="larger", measure="m", where={"x": 2}, than={"x": 1})
+    assert told == "runs to compare are missing; 2 of 4 runs failed: the step is too long"
+
+
 def test_the_interval_is_students() -> None:
     found = statistic([1.0, 2.0, 3.0, 4.0])
     assert (found.mean, found.deviation) == pytest.approx((2.5, 1.2909944))
