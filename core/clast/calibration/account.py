@@ -16,10 +16,12 @@ from clast.calibration.identify import LOOSE
 from clast.calibration.layout import ACCOUNT, FITTED, HISTORY, PAGE, PICTURE, RUNS
 from clast.calibration.proposal import misfit
 from clast.calibration.record import Grid, Record, write_record
+from clast.calibration.responses import Goal
 from clast.config.yaml_loader import dump_yaml
 from clast.reproduce.section import table
 from clast.results.whole_file import whole_file
-from clast.studies.plots import STYLE
+from clast.studies.plots import STYLE, axis_label, few_ticks
+from clast.studies.readable import readable
 from clast.studies.table import write_csv
 from clast.studies.work import DONE
 
@@ -66,9 +68,10 @@ def confusions(fit: Fit) -> list[str]:
         else:
             listed = " and ".join(names[k] for k in members)
             told.append(f"{listed} cannot be told apart: they can change together without the targets noticing")
-    for axis, share in zip(fit.axes, fit.shares[fit.best], strict=True):
+    for axis, share, sure in zip(fit.axes, fit.shares[fit.best], fit.identified.deviation, strict=True):
         if not AT_THE_END < share < 1.0 - AT_THE_END:
-            told.append(f"{axis.name} lies at the end of its range: a wider range may fit better")
+            wider = "a wider range may fit better" if sure < LOOSE else "but there the targets hardly notice it"
+            told.append(f"{axis.name} lies at the end of its range: {wider}")
     if len(fit.goals) < len(names):
         told.append(f"{len(names)} parameters, {len(fit.goals)} targets: some of the former are not determined")
     return told
@@ -163,25 +166,33 @@ def draw(fit: Fit, path: Path) -> None:
         for row, k in zip(panels, range(len(fit.goals)), strict=True):
             for panel, axis in zip(row, range(len(fit.axes)), strict=True):
                 _draw_one(panel, fit, k, axis)
-            row[0].set_ylabel(fit.goals[k].name)
+            row[0].set_ylabel(_label(fit.goals[k]))
         for panel, axis_ in zip(panels[-1], fit.axes, strict=True):
-            panel.set_xlabel(axis_.name)
+            few_ticks(panel)
+            panel.set_xlabel(axis_label(axis_.name, axis_.unit))
         with whole_file(path) as draft:
             figure.savefig(draft, format="png", dpi=110, metadata={"Software": None})
 
 
+def _label(goal: Goal) -> str:
+    words, unit, _ = readable(goal.measure)
+    told = goal.name.replace(goal.measure, words)
+    return f"{told}, {unit}" if unit else told
+
+
 def _draw_one(panel: Any, fit: Fit, k: int, axis: int) -> None:
-    goal, grid = fit.goals[k], np.linspace(0.0, 1.0, 61)
+    goal, grid, factor = fit.goals[k], np.linspace(0.0, 1.0, 61), readable(fit.goals[k].measure).factor
     line = np.repeat(fit.shares[fit.best][None], len(grid), axis=0)
     line[:, axis] = grid
-    mean, deviation = (goal.scale * each[:, k] for each in fit.surrogate.predict(line))
+    mean, deviation = (factor * goal.scale * each[:, k] for each in fit.surrogate.predict(line))
+    value, scale = factor * goal.value, factor * goal.scale
     x = _numbers(fit, axis, grid)
-    panel.axhspan(goal.value - goal.scale, goal.value + goal.scale, color="#ee6677", alpha=0.25, linewidth=0.0)
-    panel.plot(x, goal.value + mean, color="#4477aa", linewidth=1.4)
-    panel.fill_between(
-        x, goal.value + mean - deviation, goal.value + mean + deviation, color="#4477aa", alpha=0.2, linewidth=0.0
-    )
-    told = np.array([each[k] for each in fit.responses])
+    if fit.axes[axis].config.spacing == "log":
+        panel.set_xscale("log")
+    panel.axhspan(value - scale, value + scale, color="#ee6677", alpha=0.25, linewidth=0.0)
+    panel.plot(x, value + mean, color="#4477aa", linewidth=1.4)
+    panel.fill_between(x, value + mean - deviation, value + mean + deviation, color="#4477aa", alpha=0.2, linewidth=0.0)
+    told = factor * np.array([each[k] for each in fit.responses])
     panel.errorbar(
         _numbers(fit, axis, fit.shares[:, axis]),
         told[:, 0],
@@ -195,4 +206,4 @@ def _draw_one(panel: Any, fit: Fit, k: int, axis: int) -> None:
 
 
 def _numbers(fit: Fit, axis: int, shares: Floats) -> list[float]:
-    return [fit.axes[axis].at(float(share)).number or 0.0 for share in shares]
+    return [fit.axes[axis].at(float(share)).shown or 0.0 for share in shares]

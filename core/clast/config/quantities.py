@@ -100,6 +100,16 @@ def read_quantity(given: object) -> tuple[float, Dimension | None]:
     return to_si(given, match[2]), unit_factor(match[2])[1]
 
 
+def written_unit(given: object) -> str:
+    """Return the unit that a user wrote behind a number; empty where there is none.
+
+    >>> written_unit("0.25 mm"), written_unit(3), written_unit("soft")
+    ('mm', '', '')
+    """
+    match = _QUANTITY.fullmatch(given) if isinstance(given, str) else None
+    return match[2] if match else ""
+
+
 def _needed(unit: str) -> str:
     if unit == "1":
         return "a plain number is needed, such as 0.05 or '5 %'"

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import exp, gamma, isfinite, log, sqrt
 from typing import Any
 
 import numpy as np
 
-from clast.config.quantities import read_quantity
-from clast.config.units import Dimension, si_unit
+from clast.config.quantities import read_quantity, written_unit
+from clast.config.units import si_unit, unit_factor
 from clast.maths.distributions import weibull_deviation
 from clast.studies.axis_config import AxisConfig
 
@@ -32,6 +32,10 @@ class Setting:
         Key path in the scene -> value.
     factors : mapping
         Key path -> what its value is multiplied with.
+    unit : str
+        In which the axis is written; empty where it is not.
+    slug : str
+        As names of runs have it, which stay whatever a user reads; by default the label.
     """
 
     axis: str
@@ -39,6 +43,13 @@ class Setting:
     number: float | None
     changes: dict[str, Any]
     factors: dict[str, float] = field(default_factory=dict)
+    unit: str = ""
+    slug: str = ""
+
+    @property
+    def shown(self) -> float | None:
+        """The number in the unit in which the axis is written."""
+        return self.number if self.number is None or not self.unit else self.number / float(unit_factor(self.unit)[0])
 
 
 class Axis:
@@ -63,7 +74,8 @@ class Axis:
 
     def __init__(self, name: str, config: AxisConfig) -> None:
         self.name, self.config = name, config
-        self.dimension = _dimension(config)
+        self.unit = _unit(config)
+        self.dimension = unit_factor(self.unit)[1] if self.unit else None
         self._scaled = isinstance(config.keys, dict)
         self.factors = dict(config.keys) if isinstance(config.keys, dict) else dict.fromkeys(config.sets(name), 1.0)
         if config.distribution is not None:
@@ -104,15 +116,21 @@ class Axis:
         if self.config.scales and number is not None:
             return self._number(number, label)
         if not self._scaled:
-            return Setting(self.name, label, number, dict.fromkeys(self.factors, value))
+            return self._setting(label, number, dict.fromkeys(self.factors, value))
         if number is None:
             raise ValueError(f"{value!r} is no number, so that it cannot be multiplied with the factors of 'keys'")
-        return Setting(self.name, label, number, {key: factor * number for key, factor in self.factors.items()})
+        return self._setting(label, number, {key: factor * number for key, factor in self.factors.items()})
 
     def _number(self, number: float, label: str = "") -> Setting:
         unit = "" if self.dimension is None else si_unit(self.dimension)
         changes = {key: _with_unit(factor * number, unit) for key, factor in self.factors.items()}
-        return Setting(self.name, label or f"{number:.6g}", number, changes, dict.fromkeys(self.config.scales, number))
+        found = self._setting(label, number, changes, dict.fromkeys(self.config.scales, number))
+        return found if label else replace(found, label=f"{found.shown:.6g} {self.unit}".strip(), slug=f"{number:.6g}")
+
+    def _setting(
+        self, label: str, number: float | None, changes: dict[str, Any], factors: dict[str, float] | None = None
+    ) -> Setting:
+        return Setting(self.name, label, number, changes, factors or {}, self.unit, label)
 
     def _between(self, share: float) -> float:
         (low, _), (high, _) = read_quantity(self.config.start), read_quantity(self.config.to)
@@ -179,17 +197,18 @@ class Axis:
             )
 
 
-def _dimension(config: AxisConfig) -> Dimension | None:
-    """Return the dimension of what a user wrote for an axis; None for bare numbers, and for what is no number."""
+def _unit(config: AxisConfig) -> str:
+    """Return the unit in which a user wrote an axis; empty for bare numbers, and for what is no number."""
     values = config.values.values() if isinstance(config.values, dict) else config.values or ()
     for given in (config.start, config.to, config.mean, *values):
+        unit = written_unit(given)
         try:
-            dimension = read_quantity(given)[1] if given is not None else None
-        except ValueError:
+            unit_factor(unit or "1")
+        except ValueError:  # a name that looks like a quantity
             continue
-        if dimension is not None:
-            return dimension
-    return None
+        if unit:
+            return unit
+    return ""
 
 
 def _with_unit(number: float, unit: str) -> float | str:

@@ -10,6 +10,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from clast.config.scene import SceneConfig
 from clast.results.whole_file import whole_file
@@ -117,30 +118,62 @@ def _draw_mean(axis: Any, rows: Sequence[Row]) -> None:
         axis.plot(100.0 * strain, edge, color="black", linewidth=0.7, linestyle=":")
 
 
+TICKS = 4
+"""Intervals of an axis whose labels a small panel has room for."""
+
+
+DECADES = 100.0
+"""Ratio of the ends of a logarithmic axis below which powers of ten alone are too few labels."""
+
+
+def few_ticks(panel: Any) -> None:
+    """Leave room between the labels below a small panel, which holds what it is to show already."""
+    if panel.get_xscale() == "linear":
+        panel.locator_params(axis="x", nbins=TICKS)
+        return
+    low, high = panel.get_xlim()
+    panel.xaxis.set_minor_formatter(NullFormatter())
+    if high < DECADES * low:
+        panel.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        panel.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+
+
+def axis_label(name: str, unit: str) -> str:
+    """Return what stands below a plot along an axis; bare numbers are SI."""
+    return f"{name}, {unit}" if unit else f"{name} (SI)"
+
+
 def draw_measures(table: Table, path: Path) -> bool:
     """Draw measures along every axis whose values are numbers; False where there is none."""
+    with mpl.rc_context(STYLE):
+        figure = measures_figure(table)
+        if figure is not None:
+            _save(figure, path)
+    return figure is not None
+
+
+def measures_figure(table: Table) -> Figure | None:
+    """Return measures along every axis whose values are numbers; None where there is none."""
     axes = [name for name in table.axes if all(isinstance(row.value(name), float) for row in table.rows)]
     shown = [name for name in SHOWN if name in table.measures]
     if not axes or not shown:
-        return False
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(3.6 * len(shown), 3.2 * len(axes)), layout="constrained")
-        FigureCanvasAgg(figure)
-        panels = figure.subplots(len(axes), len(shown), squeeze=False)
-        for row, name in zip(panels, axes, strict=True):
-            for panel, measure in zip(row, shown, strict=True):
-                _draw_measure(panel, table, name, measure)
-        if any(table.variants):
-            figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-        _save(figure, path)
-    return True
+        return None
+    figure = Figure(figsize=(3.6 * len(shown), 3.2 * len(axes)), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = figure.subplots(len(axes), len(shown), squeeze=False)
+    for row, name in zip(panels, axes, strict=True):
+        for panel, measure in zip(row, shown, strict=True):
+            _draw_measure(panel, table, name, measure)
+    if any(table.variants):
+        figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return figure
 
 
 def _draw_measure(panel: Any, table: Table, axis: str, measure: str) -> None:
     label, factor = SHOWN[measure]
     for variant, colour in zip(table.variants, LINES, strict=False):
         found = [
-            (rows[0].value(axis), statistic(sample))
+            (rows[0].setting(axis).shown or 0.0, statistic(sample))
             for _, rows in table.points(variant)
             if (sample := values_of(rows, measure))
         ]
@@ -162,7 +195,8 @@ def _draw_measure(panel: Any, table: Table, axis: str, measure: str) -> None:
         )
         if x.min() > 0.0 and x.max() / x.min() > WIDE:
             panel.set_xscale("log")
-    panel.set(xlabel=f"{axis} (SI)", ylabel=label)
+    few_ticks(panel)
+    panel.set(xlabel=axis_label(axis, table.rows[0].setting(axis).unit), ylabel=label)
 
 
 def _save(figure: Figure, path: Path) -> None:

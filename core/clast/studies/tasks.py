@@ -140,7 +140,7 @@ def changed(owner: Owner, scene: SceneConfig, changes: Mapping[str, Any], place:
 def task(scene: SceneConfig, variant: str, point: int, repeat: int, settings: Point) -> Task:
     """Return a scene as a task."""
     text = dump_yaml(scene.resolved())
-    values = [variant, *(setting.label for setting in settings)]
+    values = [variant, *(setting.slug or setting.label for setting in settings)]
     slug = re.sub(r"[^A-Za-z0-9.=+-]+", "_", "-".join(value for value in values if value)).strip("_.-")[:LONGEST]
     digest = hashlib.sha256(text.encode()).hexdigest()[:10]
     return Task(f"{slug}-{digest}" if slug else digest, variant, point, repeat, settings, text)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from math import floor, isfinite, log10
 from typing import NamedTuple
 
+from clast.studies.readable import readable
 from clast_viz.report.parameters import text_of
-
-UNITS = (("_J_per_m3", "kJ/m³", 1e-3), ("_Pa", "MPa", 1e-6), ("_N", "N", 1.0), ("_s", "s", 1.0))
-SHARES = ("strain_at_peak", "largest_drop", "broken_at_peak", "broken_at_end")
 
 
 class Measure(NamedTuple):
@@ -25,12 +23,8 @@ def measure(name: str) -> Measure:
     >>> measure("slope_5_15_Pa")
     Measure(name='slope_5_15_Pa', head='slope 5 15 [MPa]', factor=1e-06)
     """
-    if name in SHARES:
-        return Measure(name, f"{name.replace('_', ' ')} [%]", 100.0)
-    for end, unit, factor in UNITS:
-        if name.endswith(end):
-            return Measure(name, f"{name.removesuffix(end).replace('_', ' ')} [{unit}]", factor)
-    return Measure(name, name.replace("_", " "), 1.0)
+    words, unit, factor = readable(name)
+    return Measure(name, f"{words} [{unit}]" if unit else words, factor)
 
 
 def scattered(mean: str, deviation: str, runs: str, factor: float) -> str:
