@@ -61,14 +61,7 @@ class StudyOutcome:
 
     def open_peaks(self) -> str:
         """Return how many runs ended before their peak was behind them, in words; empty where none did."""
-        done = self.table.done()
-        count = sum(row.measures.get(INSIDE) == 0.0 for row in done)
-        if not count:
-            return ""
-        return (
-            f"{count} of {len(done)} runs ended before their stress had fallen by a fifth from its peak "
-            f"({INSIDE} is 0): a later, higher peak is not ruled out; a larger time.end.strain tells"
-        )
+        return open_peaks(values_of(self.table.done(), INSIDE))
 
     def told(self) -> str:
         """Return how many runs ended how."""
@@ -77,6 +70,17 @@ class StudyOutcome:
         told = f"{len(states)} runs: " + ", ".join(f"{count} {state}" for state, count in counts.items())
         same = len(states) - len({(row.task.variant, row.task.point, row.task.name) for row in self.table.rows})
         return told + (f"; {same} are repeats that draw no other numbers, and count as the same run" if same else "")
+
+
+def open_peaks(insides: Sequence[float]) -> str:
+    """Return in words how many runs ended before their peak was behind them, from what each measured of it."""
+    count = sum(inside == 0.0 for inside in insides)
+    if not count:
+        return ""
+    return (
+        f"{count} of {len(insides)} runs ended before their stress had fallen by a fifth from its peak "
+        f"({INSIDE} is 0): a later, higher peak is not ruled out; a larger time.end.strain tells"
+    )
 
 
 def _cell(sample: Sequence[float], factor: float, decimals: int) -> str:

@@ -71,6 +71,19 @@ def test_points_have_mean_and_deviation(sweep: Path) -> None:
     assert ["paper", "0.4", "2", "3.0 ± 1.4"] in page.cells  # folded: drops
 
 
+def test_runs_that_ended_before_their_peak_are_counted(sweep: Path) -> None:
+    table = sweep / "runs.csv"
+    lines = [
+        f"{line},{inside}" for line, inside in zip(RUNS.splitlines(), ("peak_inside", 1.0, 0.0, 1.0, ""), strict=True)
+    ]
+    table.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    report(sweep)
+    assert "1 of 3 runs ended before their stress had fallen by a fifth" in Page(sweep / "report.html").text
+    table.write_text(RUNS, encoding="utf-8")
+    report(sweep)
+    assert "ended before" not in Page(sweep / "report.html").text
+
+
 def test_the_study_its_runs_and_its_plots_are_shown(sweep: Path) -> None:
     report(sweep)
     page = Page(sweep / "report.html")

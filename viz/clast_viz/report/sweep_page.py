@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from clast.studies.outcome import COLUMNS
+from clast.studies.outcome import COLUMNS, INSIDE, open_peaks
 from clast.studies.verdict import NOT_REPRODUCED, OPEN, REPRODUCED
 from clast.studies.work import DONE
 from clast_viz.report.ended import ended
@@ -31,6 +31,7 @@ def values_of_sweep(sweep: Sweep, page: Path) -> dict[str, Any]:
         "description": str(sweep.study.get("description") or ""),
         "counts": Counter(each.state for each in runs).most_common(),
         "ended": runs,
+        "open_peaks": open_peaks([float(row[INSIDE]) for row in sweep.runs if row.get(INSIDE)]),
         "undone": [each for each in runs if each.state != DONE],
         "run_heads": [*_shown(sweep), "repeat"],
         "verdicts": [row | {"class": CLASSES.get(row["verdict"], "doubt")} for row in sweep.verdicts],
