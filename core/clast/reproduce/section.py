@@ -38,7 +38,7 @@ def reasons(outcome: StudyOutcome) -> str:
     for row in outcome.table.rows:
         if row.reason:
             values = ", ".join(f"{each.axis} {each.label}" for each in row.task.settings)
-            found.setdefault(row.reason.split(": ", 1)[-1], values)
+            found.setdefault(row.cause, values)
     return " ".join(f"{values}: {reason}." for reason, values in list(found.items())[:3])
 
 

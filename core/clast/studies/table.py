@@ -42,6 +42,12 @@ class Row:
     measures: Mapping[str, float | None] = field(default_factory=dict)
     curve: Curve | None = None
 
+    @property
+    def cause(self) -> str:
+        """Why the run failed, without the place in its scene file, which is another one in every run."""
+        place, _, rest = self.reason.partition(": ")
+        return rest if f"{self.task.name}.yaml" in place else self.reason
+
     def setting(self, axis: str) -> Setting:
         """Return the setting of an axis."""
         return next(each for each in self.task.settings if each.axis == axis)

@@ -53,11 +53,11 @@ def _judged(table: Table, expectation: Expectation, variant: str) -> Verdict:
     meant = [row for row in asked if _is_meant(row, expectation)]
     failed = [row for row in meant if row.state == FAILED]
     if failed and len(failed) == len(meant):
-        return Verdict(expectation, variant, OPEN, f"all {len(failed)} runs failed: {failed[0].reason}")
+        return Verdict(expectation, variant, OPEN, f"all {len(failed)} runs failed: {failed[0].cause}")
     every = table.done(variant)
     verdict, evidence = CHECKS[expectation.check](expectation, chosen(every, expectation.where), every)
     if failed and verdict == OPEN:
-        evidence += f"; {len(failed)} of {len(meant)} runs failed: {failed[0].reason}"
+        evidence += f"; {len(failed)} of {len(meant)} runs failed: {failed[0].cause}"
     return Verdict(expectation, variant, verdict, evidence)
 
 

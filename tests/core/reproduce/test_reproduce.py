@@ -63,6 +63,21 @@ def test_what_is_not_run_yet_is_told(tmp_path: Path) -> None:
     assert f"| strength | {SAYS} | not run |" in page.read_text()
 
 
+def test_runs_that_all_failed_are_told_with_their_reason_also_when_they_are_gathered_later(tmp_path: Path) -> None:
+    folder, page = manuscript(tmp_path / "book"), tmp_path / "page.md"
+    study = yaml.safe_load((folder / "strength.yaml").read_text())
+    study["set"]["time.step"] = 1e-3
+    write(folder, yaml.safe_dump(study), "strength.yaml")
+    pages = []
+    for options in ((), ("--collect",)):
+        assert reproduce(folder, "-o", page, "--runs", tmp_path / "runs", *options).exit_code == 0
+        pages.append(page.read_text())
+    assert pages[0] == pages[1]
+    assert f"| strength | {SAYS} | all runs failed |" in pages[0]
+    assert "all 2 runs failed: time.step: 0.001 s is above the stability limit" in pages[0]
+    assert str(tmp_path) not in pages[0]
+
+
 def test_names_that_are_not_there_are_told(tmp_path: Path) -> None:
     told = reproduce("papre")
     assert told.exit_code == 2

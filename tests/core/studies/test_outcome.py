@@ -29,3 +29,12 @@ def test_nothing_is_said_where_every_peak_is_inside_or_there_is_none() -> None:
     assert outcome(1.0, 1.0, None).open_peaks() == ""
     found: Any = outcome()
     assert found.open_peaks() == ""
+
+
+def test_the_cause_of_a_failure_is_told_without_the_file_of_its_scene() -> None:
+    task = Task("a-1", "", 0, 0, (), "")
+    assert (
+        Row(task, "failed", "x/scenes/a-1.yaml:3:1: time.step: too long: halve it").cause
+        == "time.step: too long: halve it"
+    )
+    assert Row(task, "failed", "out of memory: 3 GB").cause == "out of memory: 3 GB"
