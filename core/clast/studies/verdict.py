@@ -18,7 +18,7 @@ from clast.studies.measures import unit_of
 from clast.studies.selection import meets
 from clast.studies.statistics import deviation_interval, statistic, values_of
 from clast.studies.table import Row, Table, curves
-from clast.studies.work import FAILED
+from clast.studies.work import DONE, FAILED
 
 REPRODUCED, NOT_REPRODUCED, OPEN = "reproduced", "not reproduced", "not decidable"
 LEVEL = 0.05
@@ -56,8 +56,11 @@ def _judged(table: Table, expectation: Expectation, variant: str) -> Verdict:
         return Verdict(expectation, variant, OPEN, f"all {len(failed)} runs failed: {failed[0].cause}")
     every = table.done(variant)
     verdict, evidence = CHECKS[expectation.check](expectation, chosen(every, expectation.where), every)
-    if failed and verdict == OPEN:
+    waiting = sum(row.state not in (DONE, FAILED) for row in meant)
+    if failed:
         evidence += f"; {len(failed)} of {len(meant)} runs failed: {failed[0].cause}"
+    if waiting:
+        evidence += f"; {waiting} of {len(meant)} runs are still to be done"
     return Verdict(expectation, variant, verdict, evidence)
 
 

@@ -150,6 +150,13 @@ def test_a_statement_that_runs_which_failed_leave_open_says_so_and_why() -> None
     assert told == "runs to compare are missing; 2 of 4 runs failed: the step is too long"
 
 
+def test_a_statement_says_what_is_still_to_be_done_whatever_its_verdict() -> None:
+    found = table(lambda x: x, 0.2)
+    rows = [Row(row.task, "not run") if row.value("x") == 4.0 else row for row in found.rows]
+    assert verdict(Table(rows), check="grows", measure="m") == REPRODUCED
+    assert evidence(Table(rows), check="grows", measure="m").endswith("; 4 of 16 runs are still to be done")
+
+
 def test_the_interval_is_students() -> None:
     found = statistic([1.0, 2.0, 3.0, 4.0])
     assert (found.mean, found.deviation) == pytest.approx((2.5, 1.2909944))
