@@ -90,11 +90,12 @@ _DIED = "{count} workers died with this run: out of memory, or a crash in a libr
 def _tell(folder: Path, result: Result, audience: Audience) -> None:
     """Tell how a run ended, and leave the reason of a failure for whoever gathers the runs later."""
     failure = failure_of(folder, result.name)
-    if result.state == FAILED:
-        failure.parent.mkdir(exist_ok=True)
-        failure.write_text(f"{result.reason}\n", encoding="utf-8")
-    else:
-        failure.unlink(missing_ok=True)
+    with suppress(OSError):  # a disk that takes no more costs this note alone: runs go on
+        if result.state == FAILED:
+            failure.parent.mkdir(exist_ok=True)
+            failure.write_text(f"{result.reason}\n", encoding="utf-8")
+        else:
+            failure.unlink(missing_ok=True)
     audience.ended(result)
 
 

@@ -133,6 +133,15 @@ def test_a_failure_is_forgotten_when_the_run_is_done_after_all(tmp_path: Path) -
     assert sweep(file, tmp_path / "out", "--collect").exit_code == 0
 
 
+def test_a_failure_that_cannot_be_noted_down_costs_that_note_alone(tmp_path: Path) -> None:
+    file = study_file(tmp_path, set=QUICK, vary={"time.step": ["1e-5 s", "1e-7 s"]})
+    sweep(file, tmp_path / "out", "--prepare")
+    (tmp_path / "out" / "failed").write_text("no folder can be made here")
+    told = sweep(file, tmp_path / "out")
+    assert told.exit_code == 1, told.output
+    assert [row["state"] for row in rows(tmp_path / "out")] == ["failed", "done"]
+
+
 def test_a_run_that_fails_costs_itself_alone(tmp_path: Path) -> None:
     vary = {"time.step": ["1e-7 s", "1e-5 s"]}  # the second is far above the limit
     file = study_file(tmp_path, set=QUICK, vary=vary)
