@@ -13,6 +13,7 @@ from clast.errors import RunError
 from clast.forecast import duration, run_seconds, time_concerns
 from clast.forecast_results import size_concerns
 from clast.results.in_words import summary_rows
+from clast.scene.held import not_held
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
 
@@ -88,7 +89,7 @@ class Lines(Listener):
         left = simulation.last_step - simulation.step
         size = f"{counted(len(scene.radius), 'particle')}, {counted(len(scene.ends), 'bond')}"
         self.say(f"{size}, {left:,} steps of {simulation.dt:.3g} s")
-        for line in (simulation.crew.told, simulation.keeper.warning):
+        for line in (simulation.crew.told, simulation.keeper.warning, *not_held(scene)):
             if line:
                 self.say(line)
         seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)

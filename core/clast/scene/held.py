@@ -1,0 +1,70 @@
+"""Held: whether something stands behind particles that are pushed, such as a bottom under a tube full of grains."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.scene.plan import wall_shapes
+from clast.scene.scene import Scene
+
+Floats = NDArray[np.float64]
+ASKED = 64
+"""Particles that are looked at, and steps taken on the way of each."""
+
+
+def not_held(scene: Scene) -> list[str]:
+    """Return a sentence for each push that more than half of the particles would follow for ever.
+
+    Pushes are body forces and walls that move with a known velocity; what holds are other walls, and the domain. Scenes
+    without walls are left alone.
+    """
+    if not scene.config.walls or scene.config.boundaries.domain is not None:
+        return []
+    chosen = np.unique(np.linspace(0, len(scene.radius) - 1, ASKED).astype(np.int64))
+    chosen = chosen[~scene.prescribed[chosen]]
+    told = []
+    for name, wall, way in _pushes(scene):
+        free = sum(not _stopped(scene, int(k), way, wall) for k in chosen)
+        if free > 0.5 * len(chosen):
+            told.append(
+                f"nothing holds the particles against {name}: no wall lies behind them in its direction. Add one, such "
+                "as a bottom, or boundaries.domain"
+            )
+    return told
+
+
+def _pushes(scene: Scene) -> Iterator[tuple[str, int | None, Floats]]:
+    """Yield what pushes, its number among the walls if it is one, and the unit vector along which it does."""
+    for k, chosen in enumerate(scene.config.body_forces):
+        numbers = chosen.part.numbers(chosen.params, scene.config.time.mass_scaling)
+        pull = np.array(chosen.part.acceleration(numbers, tuple(scene.position[0].tolist()), (0.0, 0.0, 0.0), 0.0))
+        if pull.any():
+            yield f"body_forces.{k} ({chosen.name})", None, pull / np.linalg.norm(pull)
+    for w, (name, wall) in enumerate(scene.config.walls.items()):
+        if wall.motion is not None and wall.motion.part.velocity is not None:
+            velocity = np.array(wall.motion.part.velocity(wall.motion.part.course(wall.motion.params), 0.0))
+            if velocity.any():
+                yield f"walls.{name}", w, velocity / np.linalg.norm(velocity)
+
+
+def _stopped(scene: Scene, particle: int, way: Floats, pusher: int | None) -> bool:
+    """Tell whether a particle on its way meets a wall other than the one that pushes it."""
+    x, radius = scene.position[particle], float(scene.radius[particle])
+    return any(
+        _met(nearest, shape, x, way, radius) for w, (nearest, shape) in enumerate(wall_shapes(scene)) if w != pusher
+    )
+
+
+def _met(nearest: Callable[..., Any], shape: Any, x: Floats, way: Floats, radius: float) -> bool:
+    """Tell whether a sphere on its way touches a surface; it may always go as far as the surface is away."""
+    for _ in range(ASKED):
+        gap = nearest(shape, tuple(x.tolist())).distance - radius
+        if gap <= 0.01 * radius:
+            found = nearest(shape, tuple((x + 0.1 * radius * way).tolist())).distance - radius
+            return bool(found < gap)  # one that only slides along it goes on
+        x = x + gap * way
+    return False
