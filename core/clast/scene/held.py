@@ -8,18 +8,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.config.choice import Chosen
+from clast.parts.wall import Pressed
 from clast.scene.plan import wall_shapes
 from clast.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 ASKED = 64
 """Particles that are looked at, and steps taken on the way of each."""
+TIMES = (0.0, *(10.0**k for k in range(-9, 4)))
+"""When motions are asked for their velocity, in s: some begin at rest."""
 
 
 def not_held(scene: Scene) -> list[str]:
     """Return a sentence for each push that more than half of the particles would follow for ever.
 
-    Pushes are body forces and walls that move with a known velocity; what holds are other walls, and the domain. Scenes
+    Pushes are body forces and walls that move; what holds are other walls, and the domain. Scenes
     without walls are left alone.
     """
     if not scene.config.walls or scene.config.boundaries.domain is not None:
@@ -45,10 +49,23 @@ def _pushes(scene: Scene) -> Iterator[tuple[str, int | None, Floats]]:
         if pull.any():
             yield f"body_forces.{k} ({chosen.name})", None, pull / np.linalg.norm(pull)
     for w, (name, wall) in enumerate(scene.config.walls.items()):
-        if wall.motion is not None and wall.motion.part.velocity is not None:
-            velocity = np.array(wall.motion.part.velocity(wall.motion.part.course(wall.motion.params), 0.0))
-            if velocity.any():
-                yield f"walls.{name}", w, velocity / np.linalg.norm(velocity)
+        way = np.zeros(3) if wall.motion is None else _direction(wall.motion)
+        if way.any():
+            yield f"walls.{name}", w, way / np.linalg.norm(way)
+
+
+def _direction(motion: Chosen) -> Floats:
+    """Return a velocity in m/s that a motion has at some time, as long as nothing presses on its wall."""
+    course = motion.part.course(motion.params)
+    free = Pressed(force=(0.0, 0.0, 0.0), mass=1.0, velocity=(0.0, 0.0, 0.0), span=1e-3)
+    for time in TIMES:
+        if motion.part.answer is not None:
+            velocity = np.array(motion.part.answer(course, time, free))
+        else:
+            velocity = np.array(motion.part.velocity(course, time))
+        if velocity.any():
+            return velocity
+    return np.zeros(3)
 
 
 def _stopped(scene: Scene, particle: int, way: Floats, pusher: int | None) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,16 +12,16 @@ from pydantic import Field, model_validator
 from clast import hookimpl
 from clast.config.plain import plain_data
 from clast.config.quantities import Length, Mass, Number, Point
-from clast.errors import ConfigError, PackingError, about
-from clast.parts.generator import Estimate, Gaps, Generator, Packing, Prediction, Site
+from clast.errors import PackingError, about
+from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.filling import kept
 from clast_plugins.generators.filling.account import account, too_full
-from clast_plugins.generators.filling.counts import counts
 from clast_plugins.generators.filling.dice import random_turns
+from clast_plugins.generators.filling.foresee import foresee
 from clast_plugins.generators.filling.fraction import Fraction
-from clast_plugins.generators.filling.recipe import Recipe, make_recipe, shares_of
+from clast_plugins.generators.filling.recipe import Recipe, make_recipe
 from clast_plugins.generators.filling.rigid import Grains
 from clast_plugins.generators.filling.room import Room
 
@@ -96,6 +95,8 @@ def generate(params: OedometerFill, site: Site) -> Packing:
     with about("file"):
         packing = kept.read(path, keys)
     if packing is None:
+        with about("file"):
+            kept.make_room(path)
         packing = _filled(params, site)
         with about("file"):
             kept.write(path, packing, keys)
@@ -103,31 +104,14 @@ def generate(params: OedometerFill, site: Site) -> Packing:
 
 
 def predict(params: OedometerFill, site: Site, gaps: Gaps | None) -> Prediction:
-    """Return how many grains, primaries and bonds there will be."""
-    told: dict[str, Prediction] = {}
-    for name, each in params.fractions.items():
-        if each.template.part.predict is None:
-            packing = each.template.part.generate(each.template.params, site)
-            told[name] = Prediction(len(packing.radius), float(packing.radius.min()), packing.material[0])
-        else:
-            with about("fractions", name, "template"):
-                told[name] = each.template.part.predict(each.template.params, site, gaps)
-    mass = {
-        name: each.particles * site.density.get(each.material, math.nan) * 4.0 / 3.0 * math.pi * each.radius**3
-        for name, each in told.items()
-    }
-    count = counts(shares_of(params.fractions, mass), params.grains, params.mass).grains.tolist()
-    smallest = min(told.values(), key=lambda each: each.radius)
-    particles = sum(n * each.particles for n, each in zip(count, told.values(), strict=True))
-    band = max(each.particles_band for each in told.values())
-    return Prediction(particles, smallest.radius, smallest.material, _bonds(count, list(told.values())), band)
+    """Return how many primaries and bonds there will be, and refuse what cannot be.
 
-
-def _bonds(count: list[int], told: list[Prediction]) -> Estimate | None:
-    known = [(n, each.bonds) for n, each in zip(count, told, strict=True) if each.bonds is not None]
-    if len(known) < len(told):
-        return None
-    return Estimate(sum(n * each.value for n, each in known), max(each.band for _, each in known))
+    Raises
+    ------
+    ConfigError
+        Counts that do not add up, a mass that the grains do not have, or more than the room can hold.
+    """
+    return foresee(params.fractions, params.room, params.height, params.grains, params.mass, site, gaps)
 
 
 def _keys(params: OedometerFill, site: Site) -> dict[str, Any]:
@@ -144,8 +128,6 @@ def _filled(params: OedometerFill, site: Site) -> Packing:
     stream = np.random.Philox(params.seed)
     room = params.room
     recipe = make_recipe(params.fractions, params.grains, params.mass, site, stream)
-    if len(recipe.kind) == 0:
-        raise ConfigError("there are no grains; give a number above zero", ("grains",))
     reach = recipe.scale * np.array([each.reach for each in recipe.template])
     poured = pour(reach, room, params.friction, stream)
     grains = _agglomerates(recipe, reach, poured, random_turns(stream, len(reach)))
@@ -163,7 +145,8 @@ def _filled(params: OedometerFill, site: Site) -> Packing:
         spin=np.zeros((n, 3)),
         prescribed=np.zeros(n, np.bool_),
         grain=grains.grain,
-        report=account(params.fractions, room, recipe, grains, poured, settled),
+        relieved=any(each.relieved for each in recipe.template),
+        report=account(params.fractions, room, params.height, recipe, grains, poured, settled),
     )
 
 

@@ -14,6 +14,8 @@ BOTTOM = {"type": "plane", "material": "glass", "point": [0, 0, -0.01], "normal"
 TUBE = {"type": "cylinder", "material": "glass", "point": [0, 0, 0], "axis": [0, 0, 1], "radius": 0.02}
 PISTON = {"type": "plane", "material": "glass", "point": [0, 0, 0.02], "normal": [0, 0, -1]}
 DOWN = {"type": "constant_velocity", "velocity": [0, 0, -0.1]}
+RAMP = {"type": "velocity_ramp", "end": [0, 0, -0.1], "duration": "1 ms"}
+SERVO = {"type": "force_control", "direction": [0, 0, -1], "force": "1 N", "max_velocity": "1 mm/s"}
 GRAVITY = [{"type": "gravity", "acceleration": [0, 0, -9.81]}]
 
 
@@ -34,6 +36,8 @@ def told(walls: dict[str, Any], **more: Any) -> list[str]:
     [
         ({"tube": TUBE}, {"body_forces": GRAVITY}, "nothing holds the particles against body_forces.0 (gravity)"),
         ({"tube": TUBE, "piston": PISTON | {"motion": DOWN}}, {}, "nothing holds the particles against walls.piston"),
+        ({"tube": TUBE, "piston": PISTON | {"motion": RAMP}}, {}, "nothing holds the particles against walls.piston"),
+        ({"tube": TUBE, "piston": PISTON | {"motion": SERVO}}, {}, "nothing holds the particles against walls.piston"),
         ({"tube": TUBE, "bottom": BOTTOM | {"radius": 1e-3}}, {"body_forces": GRAVITY}, "nothing holds the particles"),
     ],
 )

@@ -29,6 +29,21 @@ def test_without_a_mass_the_prior_decides() -> None:
     assert counts(shares, 100, None).grains.tolist() == [20, 30, 50]
 
 
+def test_fractions_without_a_prior_have_what_the_others_leave() -> None:
+    shares = [THREE[0]._replace(prior=0.2), *THREE[1:]]
+    assert counts(shares, 100, None).grains.tolist() == [20, 40, 40]
+
+
+def test_one_fraction_that_is_left_takes_all_that_is_left() -> None:
+    shares = [THREE[0]._replace(prior=0.0), THREE[1]._replace(grains=3), THREE[2]._replace(share=0.5)]
+    assert counts(shares, 10, None).grains.tolist() == [2, 3, 5]
+
+
+def test_a_mass_that_sizes_can_meet_is_met_as_nearly_as_counts_can() -> None:
+    equal = [Share("a", 1.0), Share("b", 1.0)]
+    assert counts(equal, 10, 10.5).grains.sum() == 10
+
+
 def test_one_share_number_and_mass_leave_no_choice() -> None:
     shares = [THREE[0]._replace(share=0.2), *THREE[1:]]
     told = counts(shares, 100, 20 + 50 * 2 + 30 * 4)
@@ -68,7 +83,10 @@ def test_the_nearest_counts_meet_both_sums_and_are_not_negative(masses: list[flo
         ([each._replace(share=0.3) for each in THREE], 100, None, "90 grains together, not 100"),
         ([THREE[0]._replace(grains=11), *THREE[1:]], 10, None, "11 grains together, not 10"),
         (THREE, None, 10.0, "the number of all is needed"),
-        (THREE, 10, 9.0, "weigh 1e\\+04 to 4e\\+04 g, and 9000 g are left"),
+        (THREE, 10, 8.0, "weigh 10000 to 40000 g, and 8000 g are left"),
+        ([each._replace(grains=0) for each in THREE], None, None, "no fraction has any grains"),
+        ([each._replace(prior=0.0) for each in THREE], 10, None, "the 'prior' shares add up to 0"),
+        ([each._replace(prior=0.5) for each in THREE], 10, None, "the 'prior' shares add up to 1.5"),
     ],
 )
 def test_counts_that_do_not_add_up_are_refused(

@@ -134,7 +134,7 @@ def test_what_is_predicted_is_what_comes() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"diameter": "2.5 mm"}, "does not fit into the room"),
+        ({"diameter": "2.5 mm"}, "the room must be at least 5 % wider than that"),
         ({"height": "2 mm"}, "do not fit under a height of 2 mm"),
         ({"grains": 12}, "particles.grains: the fractions have 11 grains together, not 12"),
         ({"mass": "1 kg"}, "particles.mass: 11 grains of these sizes weigh"),
@@ -165,14 +165,65 @@ def test_a_template_that_fails_is_named(changes: dict[str, Any], error: type[Cla
 @pytest.mark.parametrize(
     ("more", "sentence"),
     [
+        ({"between": [-1e-3, 3e-3], "deviation": 1e-4}, "'between' must be two diameters above zero"),
+        ({"between": [1e-3, 3e-3]}, "'between' bounds a distribution, so it needs a 'deviation'"),
         ({"grains": 3, "share": 0.5}, "only one of grains, share and prior can be given; given grains and share"),
         ({"deviation": 1e-3}, "diameters reach 3 deviations below the mean"),
-        ({"between": [2.5e-3, 3e-3]}, "'between' must be a smaller and a larger diameter"),
+        ({"between": [2.5e-3, 3e-3], "deviation": 1e-4}, "'between' must be two diameters above zero"),
     ],
 )
 def test_senseless_fractions_are_refused(more: dict[str, Any], sentence: str) -> None:
     with pytest.raises(ConfigError, match=sentence):
         fill({"small": fraction(2e-3, **more)})
+
+
+def test_a_template_of_another_size_is_refused() -> None:
+    with pytest.raises(ConfigError, match=r"fractions.small.diameter: the template makes grains .* mm wide, not 3 mm"):
+        packing(fill({"small": fraction(2e-3, grains=3) | {"diameter": 3e-3}}))
+
+
+def test_a_template_with_more_than_primaries_is_refused() -> None:
+    small = fraction(2e-3, grains=3)
+    spheres = [{"position": [0, 0, 0], "radius": 1e-3, "fixed": True}]
+    small["template"] = {"type": "explicit", "material": "glass", "particles": spheres}
+    with pytest.raises(ConfigError, match=r"fractions.small.template: brings prescribed particles"):
+        packing(fill({"small": small}))
+
+
+def test_fractions_and_seeds_have_grains_of_their_own() -> None:
+    """No packing comes twice: neither in two fractions with equal templates, nor with the next seed."""
+    shapes = []
+    for seed in (1, 2):
+        made = packing(fill(seed=seed))
+        for k in range(11):
+            x = made.position[made.grain == k]
+            r = made.radius[made.grain == k][0]
+            shapes.append(np.sort(np.linalg.norm(x - x.mean(axis=0), axis=1) / r).round(6).tobytes())
+    assert len(set(shapes)) == 2 * 2 * 2
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"mass": "1 kg"}, "particles.mass: 11 grains of these sizes weigh"),
+        ({"height": "2 mm"}, r"particles.height: the grains would fill \d+% of the room"),
+        ({"diameter": "2.5 mm"}, "a grain of 3 mm does not fit into a room 2.5 mm wide"),
+    ],
+)
+def test_what_cannot_be_is_refused_without_packing(changes: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(ConfigError, match=sentence):
+        forecast(fill(**changes))
+
+
+def test_a_narrow_tube_takes_its_grains_one_above_the_other() -> None:
+    made = packing(fill({"all": fraction(2e-3, grains=4)}, diameter="2.3 mm"))
+    assert made.grain.max() == 3
+
+
+def test_a_bed_below_the_height_asked_for_is_pointed_out() -> None:
+    told = packing(fill(height="40 mm")).report
+    assert str(told["height_not_reached"]).startswith("the bed ends 3")
+    assert float(told["porosity_between_grains"]) < 0.7
 
 
 def test_a_finished_fill_is_used_again_and_never_for_another(tmp_path: Path) -> None:
@@ -196,6 +247,7 @@ time: {end: {steps: 1}}
     assert kept.stat().st_mtime_ns == stamp
     assert first.position.tobytes() == again.position.tobytes()
     assert (again.material, dict(again.report)) == (first.material, dict(first.report))
+    packing(config.changed({"materials.steel": {"density": 1, "young_modulus": 1, "poisson_ratio": 0}}))
     with pytest.raises(ConfigError, match=r"particles.file: .*kept.h5 keeps a fill made with another friction, seed"):
         packing(config.changed({"particles.seed": 2, "particles.friction": 0.1}))
     kept.write_bytes(b"nonsense")

@@ -64,23 +64,23 @@ def counts(shares: Sequence[Share], grains: int | None, mass: float | None) -> C
     [7, 3]
     """
     if all(each.grains is not None for each in shares):
-        return Counts(_all_given(shares, grains), None)
+        return Counts(_some(_all_given(shares, grains)), None)
     if grains is None:
         raise ConfigError("not every fraction has its number of 'grains', so the number of all is needed", ("grains",))
     fixed = np.array([_fixed(each, grains) for each in shares])
     free = np.isnan(fixed)
-    left = grains - np.nansum(fixed)
+    left = float(grains - np.nansum(fixed))
     if left < -0.5 or (not free.any() and abs(left) > 0.5):
         total = np.nansum(fixed)
         raise ConfigError(f"the fractions have {total:.0f} grains together, not {grains}", ("grains",))
+    left = max(left, 0.0)
+    if free.sum() <= 1:
+        return Counts(_whole(np.where(free, left, fixed), grains), None)
     m = np.array([each.mass for each in shares])
     prior = _priors(shares, free) * left
-    if not free.any():
-        return Counts(_whole(fixed, grains), None)
-    if mass is None or free.sum() == 1:
+    if mass is None:
         return Counts(_whole(np.where(free, prior, fixed), grains), None)
-    rest = mass - float(np.nansum(fixed * m))
-    _refuse_impossible_mass(shares, free, left, rest)
+    rest = _possible(shares, free, left, mass - float(np.nansum(fixed * m)))
     found = fixed.copy()
     found[free] = nearest(prior[free], m[free], left, rest)
     family = np.column_stack([found, found])
@@ -91,7 +91,8 @@ def counts(shares: Sequence[Share], grains: int | None, mass: float | None) -> C
 def nearest(prior: Floats, mass: Floats, number: float, total: float) -> Floats:
     """Return the counts n ≥ 0 nearest to a prior with Σ n = number and Σ n·mass = total; all are (k,).
 
-    Least squares under two equations; counts that come out below zero are set to zero, and the rest is solved anew.
+    Nearest in the sum of squared differences. Counts that come out below zero are set to zero, and the rest is solved
+    anew.
 
     >>> nearest(np.array([4.0, 3.0, 3.0]), np.array([1.0, 2.0, 3.0]), 10.0, 20.0).round(6).tolist()
     [3.5, 3.0, 3.5]
@@ -134,11 +135,26 @@ def _fixed(each: Share, grains: int) -> float:
     return np.nan if each.share is None else grains * each.share
 
 
+def _some(count: NDArray[np.int64]) -> NDArray[np.int64]:
+    if count.sum() == 0:
+        raise ConfigError("no fraction has any grains; give a number above zero", ("fractions",))
+    return count
+
+
 def _priors(shares: Sequence[Share], free: NDArray[np.bool_]) -> Floats:
-    """Return the shares expected of the free fractions, of all free grains; equal ones where none are given."""
-    given = np.array([1.0 if each.prior is None else each.prior for each in shares])
+    """Return the shares expected of the free fractions, of all free grains.
+
+    Those without a prior have what the others leave, in equal parts.
+    """
+    given = np.array([np.nan if each.prior is None else each.prior for each in shares])
     given[~free] = 0.0
-    return given / max(float(given.sum()), 1e-300)
+    told, missing = float(np.nansum(given)), np.isnan(given)
+    if told > 1.0 + 1e-9 or (told == 0.0 and not missing.any()):
+        raise ConfigError(
+            f"the 'prior' shares add up to {told:.4g}; more than 0 and at most 1 is needed", ("fractions",)
+        )
+    given[missing] = max(1.0 - told, 0.0) / max(int(missing.sum()), 1)
+    return given / float(given.sum())
 
 
 def _whole(count: Floats, grains: int) -> NDArray[np.int64]:
@@ -149,13 +165,16 @@ def _whole(count: Floats, grains: int) -> NDArray[np.int64]:
     return whole
 
 
-def _refuse_impossible_mass(shares: Sequence[Share], free: NDArray[np.bool_], number: float, rest: float) -> None:
+def _possible(shares: Sequence[Share], free: NDArray[np.bool_], number: float, rest: float) -> float:
+    """Return the mass in kg nearest to ``rest`` that the free grains can have; diameters may change by a little."""
     each = np.array([share.mass for share in shares])[free]
     most, least = number * each.max(), number * each.min()
-    if not least <= rest <= most:
+    slack = (1.0 + MOST_SCALING) ** 3
+    if not least / slack <= rest <= most * slack:
         names = ", ".join(share.name for share, one in zip(shares, free, strict=True) if one)
         raise ConfigError(
-            f"{number:.0f} grains of {names} weigh {1e3 * least:.4g} to {1e3 * most:.4g} g, and {1e3 * rest:.4g} g are "
+            f"{number:.0f} grains of {names} weigh {1e3 * least:.6g} to {1e3 * most:.6g} g, and {1e3 * rest:.6g} g are "
             "left for them; change 'mass', 'grains', the diameters, or the density",
             ("mass",),
         )
+    return float(min(max(rest, least), most))

@@ -1,4 +1,4 @@
-"""Random numbers of a fill: from raw bits, which stay the same over versions of numpy."""
+"""Random numbers of a fill, from raw bits: these stay the same over versions of numpy."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ class Fraction(Params):
         tuple[Length, Length] | None,
         Field(description="Smallest and largest diameter; by default three deviations from the mean"),
     ] = None
-    grains: Annotated[int | None, Field(ge=0, description="Number of grains of this fraction")] = None
+    grains: Annotated[int | None, Field(ge=0, le=1_000_000, description="Number of grains of this fraction")] = None
     share: Annotated[Number | None, Field(ge=0, le=1, description="Share of all grains, instead of `grains`")] = None
     prior: Annotated[
         Number | None,
@@ -40,8 +40,10 @@ class Fraction(Params):
         given = [name for name in ("grains", "share", "prior") if getattr(self, name) is not None]
         if len(given) > 1:
             raise ValueError(f"only one of grains, share and prior can be given; given {' and '.join(given)}")
-        if self.between is not None and not self.between[0] <= self.diameter <= self.between[1]:
-            raise ValueError("'between' must be a smaller and a larger diameter than the mean")
+        if self.between is not None and not 0.0 < self.between[0] <= self.diameter <= self.between[1]:
+            raise ValueError("'between' must be two diameters above zero, one below and one above the mean")
+        if self.between is not None and self.deviation == 0.0:
+            raise ValueError("'between' bounds a distribution, so it needs a 'deviation'")
         if self.between is None and self.deviation * FARTHEST >= self.diameter:
             raise ValueError(f"diameters reach {FARTHEST:g} deviations below the mean, here below zero; give 'between'")
         return self

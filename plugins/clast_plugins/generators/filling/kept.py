@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 import numpy as np
@@ -13,6 +16,8 @@ from clast.parts.generator import Packing
 from clast.results.whole_file import whole_file
 
 ARRAYS = ("position", "radius", "grain")
+FORMAT = 1
+"""Number of the way in which fills are made: another one makes another fill of the same keys."""
 
 
 def read(path: Path, wanted: dict[str, Any]) -> Packing | None:
@@ -38,22 +43,44 @@ def read(path: Path, wanted: dict[str, Any]) -> Packing | None:
             given = json.loads(file.attrs["keys"])
             tables = {name: file[name][:] for name in ARRAYS}
             material, report = json.loads(file.attrs["material"]), json.loads(file.attrs["report"])
+            relieved, form = bool(file.attrs["relieved"]), int(file.attrs["format"])
+        n = {len(table) for table in tables.values()}
+        if len(n) != 1 or len(material) not in (1, *n):
+            raise ValueError("its tables differ in length")
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise ConfigError(f"{path} is no finished fill ({one_line(error)}); remove it, or name another file") from error
-    other = ", ".join(different(given, wanted))
+    if form != FORMAT:
+        raise ConfigError(f"{path} was made by another version of Clast; remove it, or name another file")
+    used = {name: wanted["density"].get(name) for name in given["density"]}
+    other = ", ".join(different(given, wanted | {"density": used}))
     if other:
         raise ConfigError(
             f"{path} keeps a fill made with another {other}; remove it to make the fill anew, or name another file"
         )
-    n = len(tables["radius"])
+    count = len(tables["radius"])
     return Packing(
         **tables,
-        material=[material[k] for k in range(n)] if len(material) == n else material * n,
-        velocity=np.zeros((n, 3)),
-        spin=np.zeros((n, 3)),
-        prescribed=np.zeros(n, np.bool_),
+        material=material if len(material) == count else material * count,
+        velocity=np.zeros((count, 3)),
+        spin=np.zeros((count, 3)),
+        prescribed=np.zeros(count, np.bool_),
+        relieved=relieved,
         report=report,
     )
+
+
+def make_room(path: Path) -> None:
+    """Make sure that a fill can be kept in a file, before it is made.
+
+    Raises
+    ------
+    ConfigError
+        If nothing can be written there.
+    """
+    with _telling(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=path.parent):
+            pass
 
 
 def write(path: Path, packing: Packing, keys: dict[str, Any]) -> None:
@@ -67,18 +94,22 @@ def write(path: Path, packing: Packing, keys: dict[str, Any]) -> None:
     import h5py
 
     material = sorted(set(packing.material))
+    keys = keys | {"density": {name: keys["density"].get(name) for name in material}}
+    with _telling(path), whole_file(path) as draft, h5py.File(draft, "w") as file:
+        for name in ARRAYS:
+            file[name] = getattr(packing, name)
+        file.attrs["keys"], file.attrs["report"] = json.dumps(keys), json.dumps(dict(packing.report))
+        file.attrs["material"] = json.dumps(material if len(material) == 1 else packing.material)
+        file.attrs["relieved"], file.attrs["format"] = packing.relieved, FORMAT
+
+
+@contextmanager
+def _telling(path: Path) -> Iterator[None]:
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with whole_file(path) as draft, h5py.File(draft, "w") as file:
-            for name in ARRAYS:
-                file[name] = getattr(packing, name)
-            file.attrs["keys"] = json.dumps(keys)
-            file.attrs["report"] = json.dumps(dict(packing.report))
-            file.attrs["material"] = json.dumps(material if len(material) == 1 else packing.material)
+        yield
     except OSError as error:
-        raise ConfigError(
-            f"{path}: cannot be written ({one_line(error)}); free some space, or name another file"
-        ) from error
+        why = one_line(error)
+        raise ConfigError(f"{path}: cannot be written ({why}); free some space, or name another file") from error
 
 
 def different(one: Any, other: Any, at: str = "") -> list[str]:

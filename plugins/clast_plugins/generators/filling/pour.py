@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.scene import from_mapping
-from clast.errors import PackingError
+from clast.errors import ConfigError, PackingError, RunError
 from clast_plugins.generators.filling.room import Room
 from clast_plugins.generators.packing.container import uniforms
+
+if TYPE_CHECKING:
+    from clast import Simulation
 
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-SOFT = {"density": 1000.0, "young_modulus": 1e6, "poisson_ratio": 0.3}
-"""Soft spheres fall just the same, and need fewer steps; under their own weight they overlap by 1e-3 of a diameter."""
+DENSITY, POISSON_RATIO = 1000.0, 0.3
+STIFFNESS = 5000.0
+"""Young's modulus over what the bed weighs on its bottom, per area. Soft spheres fall just the same, and need fewer
+steps; at the bottom they overlap by about 0.5 % of a diameter (Hertz)."""
 RESTITUTION = 0.3
 ROLLING = 0.05
 """Rolling friction: without it a sphere on a plane rolls for ever, as no grain does."""
@@ -46,7 +53,14 @@ def pour(radius: Floats, room: Room, friction: float, stream: np.random.Philox) 
     from clast import Simulation  # not when parts are registered: it brings the compiler
 
     start = stacked(radius, room, stream)
-    simulation = Simulation(from_mapping(_scene(start, radius, room, friction)), threads=1)
+    try:
+        return _fallen(Simulation(from_mapping(_scene(start, radius, room, friction)), threads=1), radius)
+    except (ConfigError, RunError) as error:
+        raise PackingError(f"the grains could not be poured: {error}") from error
+
+
+def _fallen(simulation: Simulation, radius: Floats) -> Floats:
+    """Return where the spheres of a simulation lie when they have come to rest."""
     every = max(1, round(LOOK / simulation.dt))
     weight = radius**3 / float((radius**3).sum())
     while simulation.step < simulation.last_step:
@@ -55,7 +69,9 @@ def pour(radius: Floats, room: Room, friction: float, stream: np.random.Philox) 
         energy = 0.5 * float(weight @ (twist**2).sum(axis=1))
         if energy < REST * GRAVITY * 2.0 * float(radius.mean()) and simulation.time > LOOK:
             return simulation.world.particles.pose[:, :3].copy()
-    raise PackingError(f"the grains did not come to rest within {LONGEST:g} s; take another 'seed'", ("seed",))
+    raise PackingError(
+        f"the grains did not come to rest within {LONGEST:g} s; give more 'friction', or another 'seed'", ("friction",)
+    )
 
 
 def stacked(radius: Floats, room: Room, stream: np.random.Philox) -> Floats:
@@ -73,7 +89,11 @@ def stacked(radius: Floats, room: Room, stream: np.random.Philox) -> Floats:
     spots = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
     spots = spots[room.side_gap(spots) >= 1.05 * widest]
     if len(spots) == 0:
-        raise PackingError(f"a grain is {2e3 * widest:.4g} mm wide and does not fit into the room", ("fractions",))
+        spots = np.zeros((1, 3))  # one above the other
+    if room.side_gap(spots[:1])[0] < 1.05 * widest:
+        raise PackingError(
+            f"a grain is {2e3 * widest:.4g} mm wide; the room must be at least 5 % wider than that", ("fractions",)
+        )
     layer, spot = np.divmod(np.arange(len(radius)), len(spots))
     place = spots[spot]
     place[:, 2] = cell * (layer + 0.5)
@@ -88,10 +108,16 @@ def _row(half: float, cell: float) -> Floats:
 
 def _scene(start: Floats, radius: Floats, room: Room, friction: float) -> dict[str, object]:
     """Return the scene of falling spheres as plain data."""
+    bed = float((4.0 / 3.0 * np.pi * radius**3).sum()) / room.section
+    soft = {
+        "density": DENSITY,
+        "young_modulus": STIFFNESS * DENSITY * GRAVITY * bed,
+        "poisson_ratio": POISSON_RATIO,
+    }
     spheres = [{"position": x, "radius": r} for x, r in zip(start.tolist(), radius.tolist(), strict=True)]
     return {
         "name": "pouring",
-        "materials": {"grain": SOFT},
+        "materials": {"grain": soft},
         "particles": {"type": "explicit", "material": "grain", "particles": spheres},
         "contacts": {
             "law": "hertz_mindlin",

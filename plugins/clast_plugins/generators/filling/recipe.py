@@ -19,6 +19,9 @@ from clast_plugins.generators.filling.templates import Template, templates
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+MOST_OFF = 0.15
+"""Share by which the sphere about a template may differ from the fraction's diameter: a flattened grain is wider."""
+
 
 class Recipe(NamedTuple):
     """Grains in the order in which they are poured.
@@ -70,8 +73,8 @@ def make_recipe(
         A template that cannot be packed.
     """
     made = {
-        name: templates(each.template, each.templates, site, ("fractions", name, "template"))
-        for name, each in fractions.items()
+        name: _templates(name, each, site, (int(stream.random_raw()), number))
+        for number, (name, each) in enumerate(fractions.items())
     }
     mean = {name: float(np.mean([each.mass.sum() for each in kinds])) for name, kinds in made.items()}
     told = counts(shares_of(fractions, mean), grains, mass)
@@ -94,15 +97,38 @@ def make_recipe(
     return recipe if mass is None else _with_mass(recipe, mass)
 
 
+def _templates(name: str, fraction: Fraction, site: Site, dice: tuple[int, int]) -> list[Template]:
+    made = templates(fraction.template, fraction.templates, site, ("fractions", name, "template"), dice)
+    wide = 2.0 * float(np.mean([each.reach for each in made]))
+    if abs(wide / fraction.diameter - 1.0) > MOST_OFF:
+        raise ConfigError(
+            f"the template makes grains {1e3 * wide:.4g} mm wide, not {1e3 * fraction.diameter:.4g} mm; give it the "
+            "mean diameter of the fraction",
+            ("fractions", name, "diameter"),
+        )
+    return made
+
+
 def _with_mass(recipe: Recipe, mass: float) -> Recipe:
     """Return a recipe whose grains weigh exactly ``mass`` in kg together."""
-    there = float(recipe.mass.sum())
+    factor = mass_factor(len(recipe.kind), float(recipe.mass.sum()), mass)
+    return recipe._replace(scale=factor * recipe.scale, diameter=factor * recipe.diameter, factor=factor)
+
+
+def mass_factor(grains: int, there: float, mass: float) -> float:
+    """Return what diameters are multiplied by so that grains that weigh ``there`` weigh ``mass``, both in kg.
+
+    Raises
+    ------
+    ConfigError
+        If they would change by more than a little.
+    """
     factor = float(np.cbrt(mass / there))
     if abs(factor - 1.0) > MOST_SCALING:
         raise ConfigError(
-            f"{len(recipe.kind)} grains of these sizes weigh {1e3 * there:.4g} g, not {1e3 * mass:.4g} g: diameters "
-            f"would have to be {factor:.3f} times as large, and {MOST_SCALING:.0%} at most are changed; give another "
-            "'mass' or other counts, or check density and porosity",
+            f"{grains} grains of these sizes weigh {1e3 * there:.4g} g, not {1e3 * mass:.4g} g: diameters would have "
+            f"to be {factor:.3f} times as large, and {MOST_SCALING:.0%} at most are changed; give another 'mass' or "
+            "other counts, or check density and porosity",
             ("mass",),
         )
-    return recipe._replace(scale=factor * recipe.scale, diameter=factor * recipe.diameter, factor=factor)
+    return factor

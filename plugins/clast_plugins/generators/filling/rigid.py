@@ -90,7 +90,6 @@ class Touch:
         self.gap = SKIN * float(grains.radius.mean())
         self.force, self.torque = np.zeros_like(grains.centre), np.zeros_like(grains.centre)
         self.overlap = 0.0
-        self.lists = 0
         self._listed_at: tuple[Floats, Floats, float] | None = None
 
     def look(self) -> None:
@@ -127,7 +126,6 @@ class Touch:
         self._grain, self._arm, self._radius = grains.grain[kept], grains.arm[kept], radius[kept]
         self._position = position[kept]
         self._listed_at = (grains.centre.copy(), grains.turned.copy(), self.room.lid)
-        self.lists += 1
 
 
 def list_pairs(grains: Grains, position: Floats, gap: float) -> Ints:

@@ -117,7 +117,10 @@ def push_apart(
         way = sub(vector(position, j), vector(position, i))
         both = radius[i] + radius[j]
         square = dot(way, way)
-        if square >= both * both or square == 0.0:
+        if square >= both * both:
+            continue
+        if square == 0.0:  # which way to push nobody can tell, but it counts
+            largest = max(largest, both)
             continue
         distance = sqrt(square)
         overlap = both - distance
@@ -152,20 +155,20 @@ def push_inside(
         x, y, z = vector(position, k)
         r, g = radius[k], grain[k]
         arm = sub((x, y, z), vector(centre, g))
-        up = max(room[3] + r - z, 0.0) - max(z + r - room[4], 0.0)
-        largest = max(largest, abs(up))
-        f = (0.0, 0.0, up)
+        below, above = max(room[3] + r - z, 0.0), max(z + r - room[4], 0.0)
+        largest = max(largest, max(below, above))
+        f = (0.0, 0.0, below - above)
         if room[0] > 0.0:
             out = sqrt(x * x + y * y)
-            deep = out + r - room[0]
+            deep = max(out + r - room[0], 0.0)
+            largest = max(largest, deep)
             if deep > 0.0:
-                largest = max(largest, deep)
-                f = (-deep * x / out, -deep * y / out, up)
+                f = (-deep * x / out, -deep * y / out, below - above)
         else:
-            fx = max(-room[1] + r - x, 0.0) - max(x + r - room[1], 0.0)
-            fy = max(-room[2] + r - y, 0.0) - max(y + r - room[2], 0.0)
-            largest = max(largest, max(abs(fx), abs(fy)))
-            f = (fx, fy, up)
+            left, right = max(r - room[1] - x, 0.0), max(x + r - room[1], 0.0)
+            front, back = max(r - room[2] - y, 0.0), max(y + r - room[2], 0.0)
+            largest = max(largest, max(max(left, right), max(front, back)))
+            f = (left - right, front - back, below - above)
         give(force, g, f)
         give(torque, g, cross(arm, f))
     return largest

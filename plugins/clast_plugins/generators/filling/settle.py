@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.errors import PackingError
 from clast_plugins.generators.filling.rigid import Grains, Touch
 from clast_plugins.generators.filling.room import Room
 
@@ -23,7 +24,7 @@ SAG = 0.01
 """Overlap at the bottom under the weight of all, in primary diameters, while grains fall."""
 LOOK = 100
 SLOW = 0.002
-"""Nothing falls any more: the centre of mass sinks by less than this share of a grain in so many steps."""
+"""Nothing falls any more: grains sink on average by less than this share of their own size in so many steps."""
 LONGEST = 20_000
 PACE = 0.02
 """How far the lid sinks in a step, in primary diameters."""
@@ -55,14 +56,21 @@ def settle(grains: Grains, room: Room, height: float | None, allowed: float) -> 
     -------
     Settled
         Compare ``overlap`` with ``allowed``: what does not fit stays overlapped.
+
+    Raises
+    ------
+    PackingError
+        If they do not stop sinking.
     """
     touch, minimiser = Touch(grains, room), Minimiser(grains)
     primary = 2.0 * float(grains.radius.mean())
     layers = max(1.0, float(grains.centre[:, 2].max()) / (2.0 * float(grains.reach.mean())))
     weight = SAG * primary / layers * minimiser.mass
-    steps = _fall(grains, touch, minimiser, weight)
+    look = round(LOOK * max(1.0, np.sqrt(0.1 * layers)))  # the weight is smaller where many lie above each other
+    steps = _fall(grains, touch, minimiser, weight, look)
     if height is not None and top(grains) > height:
         steps += _level(grains, touch, minimiser, weight, height, PACE * primary)
+        steps += _fall(grains, touch, minimiser, weight, look)
     steps += _part(touch, minimiser, allowed)
     return Settled(top(grains), touch.overlap, steps)
 
@@ -72,18 +80,17 @@ def top(grains: Grains) -> float:
     return float((grains.positions()[:, 2] + grains.radius).max())
 
 
-def _fall(grains: Grains, touch: Touch, minimiser: Minimiser, weight: Floats) -> int:
-    """Let grains of these weights (g, 1) fall until they hardly sink any more; return the steps."""
-    share, size = grains.volume / grains.volume.sum(), 2.0 * float(grains.reach.mean())
-    before = float(share @ grains.centre[:, 2])
+def _fall(grains: Grains, touch: Touch, minimiser: Minimiser, weight: Floats, look: int) -> int:
+    """Let grains of these weights (g, 1) fall until they hardly sink from look to look; return the steps."""
+    before = grains.centre[:, 2].copy()
     for step in range(1, LONGEST + 1):
         _step_under(touch, minimiser, weight)
-        if step % LOOK == 0:
-            now = float(share @ grains.centre[:, 2])
-            if before - now < SLOW * size:
+        if step % look == 0:
+            sunk = (before - grains.centre[:, 2]) / (2.0 * grains.reach)
+            if float(sunk.mean()) < SLOW:
                 return step
-            before = now
-    return LONGEST
+            before = grains.centre[:, 2].copy()
+    raise PackingError(f"the grains did not settle within {LONGEST} steps; take another 'seed'", ("seed",))
 
 
 def _level(grains: Grains, touch: Touch, minimiser: Minimiser, weight: Floats, height: float, pace: float) -> int:
@@ -94,7 +101,7 @@ def _level(grains: Grains, touch: Touch, minimiser: Minimiser, weight: Floats, h
         touch.room.lid = max(height, touch.room.lid - pace)
         _step_under(touch, minimiser, weight)
         steps += 1
-    return steps + _fall(grains, touch, minimiser, weight)
+    return steps
 
 
 def _step_under(touch: Touch, minimiser: Minimiser, weight: Floats) -> None:
@@ -118,8 +125,9 @@ def _part(touch: Touch, minimiser: Minimiser, allowed: float) -> int:
 class Minimiser:
     """FIRE for rigid grains: steered towards the forces while these do work, stopped when they do not.
 
-    Lengths are in m, the mass of a mean grain is 1, and a contact's stiffness is 1: so time has no unit, and 0.1 is a
-    step that every contact can follow.
+    Lengths are in m, the mass of a mean grain is 1, and a contact's stiffness is 1: so time has no unit. A step of 0.05
+    follows the twenty or so contacts of a grain; where a longer one goes too far, velocities are dropped and the step
+    is halved.
     """
 
     STEP, LONGEST = 0.05, 0.35
