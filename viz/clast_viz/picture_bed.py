@@ -119,7 +119,7 @@ def _caption(run: Run, frame: Frame) -> str:
 def _height(box: Box, aspect: float) -> float:
     """Return the height in m that a view as many times as wide as tall must show, with room for texts."""
     x, y, z = box[1] - box[0]
-    return float(max(1.15 * (z + 0.5 * SLOPE * y), x / aspect))
+    return float(1.15 * max(z + 0.5 * SLOPE * y, x / aspect))
 
 
 def _aim(plotter: Any, box: Box, aspect: float) -> None:
