@@ -35,6 +35,13 @@ class PictureParams(Params):
     bonds: Annotated[bool, Field(description="With 'load', draw the bonds and shrink the particles")] = True
 
 
+def meaning(run: Run) -> str:
+    """Return what the picture of a run shows, unless its scene asked for the other kind."""
+    if shows_damage(run):
+        return "cut open, at the start and at the end; grains coloured by the share of their bonds that are broken"
+    return "before the peak stress, bonds coloured by load"
+
+
 def write_picture(run: Run, params: PictureParams, path: Path) -> Written:
     """Write ``picture.png``: the frame before the peak stress (the last one without a curve), or start and end."""
     if run.n_frames == 0:

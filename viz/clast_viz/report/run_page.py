@@ -31,6 +31,7 @@ class View(NamedTuple):
     place: str
     links: list[Link]
     picture: str
+    pictured: str
     parameters: dict[str, list[Row]]
 
 
@@ -73,6 +74,7 @@ def _view(opened: Opened, style: dict[str, str] | None, page: Path) -> View:
         place=opened.folder.resolve().name,
         links=links(opened.folder, page),
         picture=data_address(png) if png.is_file() else "",
+        pictured=picture.meaning(run) if run is not None else "",
         parameters=sections(config),
     )
 
