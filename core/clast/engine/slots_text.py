@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from itertools import accumulate
-from typing import Any
 
 from clast.engine.blueprint import Blueprint, BondPlan
 from clast.engine.kernels.layout import BOND_SLOTS
-from clast.engine.records import construct, construct_from_fields, destruct, fields, members, width
-from clast.engine.sources import address
+from clast.engine.records import construct, construct_from_fields, destruct, fields, width
+from clast.engine.slots_around import body_text, walls_text
+from clast.engine.slots_pieces import bind, bind_record, function
 
 HEADER = '''"""What one scene plugs into the step loop. Written by the assembler; do not edit."""
 from importlib import import_module
@@ -38,8 +37,8 @@ def slots_text(plan: Blueprint) -> str:
         _integrator(plan),
         _bonds(plan),
         _contacts(plan),
-        _walls(plan),
-        _body(plan),
+        walls_text(plan),
+        body_text(plan),
     ]
     return "\n\n".join(part.strip("\n") for part in parts) + "\n"
 
@@ -114,43 +113,20 @@ def _integrator(plan: Blueprint) -> str:
     )
 
 
-def _bind(name: str, item: Callable[..., Any] | type | None) -> str:
-    if item is None:
-        return f"{name} = nothing"
-    if isinstance(item, type):
-        return f"{name} = import_module({item.__module__!r}).{item.__qualname__}"
-    module, qualified = address(item)
-    return f"{name} = inlined(import_module({module!r}).{qualified})"
-
-
-def _bind_record(name: str, record: type | None) -> str:
-    """Bind a record's type, and the types of the records inside it under the names that ``construct`` gives them."""
-    lines = [_bind(name, record)]
-    for field, member in members(record).items() if record is not None else ():
-        if not isinstance(member, int):
-            lines.append(_bind_record(f"{name}_{field}", member))
-    return "\n".join(lines)
-
-
-def _function(name: str, arguments: str, body: str | Sequence[str]) -> str:
-    lines = [body] if isinstance(body, str) else list(body) or ["pass"]
-    return "\n".join(["", "@inlined", f"def {name}({arguments}):", *(f"    {line}" for line in lines)])
-
-
 def _lane(slot: int) -> str:
     return f"data[{slot} * LANES + lane]"
 
 
 def _reader(name: str, record: type | None, alias: str, first: int) -> str:
     if record is None:
-        return _function(name, "data, lane", "return None")
+        return function(name, "data, lane", "return None")
     values = [_lane(first + k) for k in range(width(record))]
-    return _function(name, "data, lane", f"return {construct(record, alias, values)}")
+    return function(name, "data, lane", f"return {construct(record, alias, values)}")
 
 
 def _writer(name: str, record: type | None, first: int) -> str:
     numbers = [] if record is None else destruct(record, "record")
-    return _function(name, "data, lane, record", [f"{_lane(first + k)} = {text}" for k, text in enumerate(numbers)])
+    return function(name, "data, lane, record", [f"{_lane(first + k)} = {text}" for k, text in enumerate(numbers)])
 
 
 def _bonds(plan: Blueprint) -> str:
@@ -162,19 +138,19 @@ def _bonds(plan: Blueprint) -> str:
     bonds, at = plan.bonds, bond_offsets(plan.bonds)
     model, kinematics = bonds.model, bonds.kinematics
     lines = [
-        _bind("bond_measure", kinematics.measure),
-        _bind("bond_end_loads", kinematics.end_loads),
-        _bind("bond_beyond", kinematics.beyond),
-        *(_bind(f"bond_{name}", getattr(model, name)) for name in ("load", "failure", "mode", "energy")),
-        _bind("bond_overload", model.overload),
-        _bind("bond_on_event", model.on_event),
-        _bind_record("Reference", kinematics.Reference),
-        _bind_record("KinematicState", kinematics.State),
-        _bind_record("BondConstants", model.Constants),
-        _bind_record("BondState", model.State),
-        _bind("bond_flow", model.flow)
+        bind("bond_measure", kinematics.measure),
+        bind("bond_end_loads", kinematics.end_loads),
+        bind("bond_beyond", kinematics.beyond),
+        *(bind(f"bond_{name}", getattr(model, name)) for name in ("load", "failure", "mode", "energy")),
+        bind("bond_overload", model.overload),
+        bind("bond_on_event", model.on_event),
+        bind_record("Reference", kinematics.Reference),
+        bind_record("KinematicState", kinematics.State),
+        bind_record("BondConstants", model.Constants),
+        bind_record("BondState", model.State),
+        bind("bond_flow", model.flow)
         if model.flow
-        else _function("bond_flow", "strain, constants, state", "return state"),
+        else function("bond_flow", "strain, constants, state", "return state"),
         _reader("read_reference", kinematics.Reference, "Reference", at["reference"]),
         _reader("read_kinematic_state", kinematics.State, "KinematicState", at["kinematic_state"]),
         _writer("write_kinematic_state", kinematics.State, at["kinematic_state"]),
@@ -182,7 +158,7 @@ def _bonds(plan: Blueprint) -> str:
         _writer("write_bond_state", model.State, at["state"]),
         _reflection(model.State),
         *_bond_constants(bonds, at["constants"]),
-        _function("read_damping", "data, lane", f"return ({', '.join(_lane(at['damping'] + k) for k in range(4))})"),
+        function("read_damping", "data, lane", f"return ({', '.join(_lane(at['damping'] + k) for k in range(4))})"),
     ]
     return "\n".join(lines)
 
@@ -193,7 +169,7 @@ def _reflection(state: type | None) -> str:
         return "reflected = nothing"
     pairs = zip(destruct(state, "before"), destruct(state, "after"), strict=True)
     values = [f"2.0 * {after} - {before}" for before, after in pairs]
-    return _function("reflected", "before, after", f"return {construct(state, 'BondState', values)}")
+    return function("reflected", "before, after", f"return {construct(state, 'BondState', values)}")
 
 
 def _bond_constants(bonds: BondPlan, first: int) -> list[str]:
@@ -204,8 +180,8 @@ def _bond_constants(bonds: BondPlan, first: int) -> list[str]:
     reads = ", ".join(f"table[{k}]" for k in range(shared))
     record = construct(bonds.model.Constants, "BondConstants", values)
     return [
-        _function("read_uniforms", "table", f"return ({reads},)" if shared else "return NOTHING"),
-        _function("read_constants", "uniforms, data, lane", f"return {record}"),
+        function("read_uniforms", "table", f"return ({reads},)" if shared else "return NOTHING"),
+        function("read_constants", "uniforms, data, lane", f"return {record}"),
     ]
 
 
@@ -221,30 +197,30 @@ def _contacts(plan: Blueprint) -> str:
     in_lane = [f"data[(first + {k}) * LANES + lane]" for k in range(max(count, width(history)))]
     in_row = [f"row[{k}]" for k in range(count)]
     lines = [
-        _bind("Choices", type(plan.contacts.choices)),
+        bind("Choices", type(plan.contacts.choices)),
         f"CHOICES = Choices{tuple(plan.contacts.choices)!r}",
-        _bind("contact_load", law.load),
-        _bind("contact_energy", law.energy),
-        _bind("contact_losses", law.losses if plan.ledger else None),
-        _bind_record("ContactConstants", law.Constants),
-        _bind_record("History", law.History),
-        _function(
+        bind("contact_load", law.load),
+        bind("contact_energy", law.energy),
+        bind("contact_losses", law.losses if plan.ledger else None),
+        bind_record("ContactConstants", law.Constants),
+        bind_record("History", law.History),
+        function(
             "read_contact_constants",
             "data, first, lane",
             f"return {construct(law.Constants, 'ContactConstants', in_lane)}",
         ),
-        _function("row_constants", "row", f"return {construct(law.Constants, 'ContactConstants', in_row)}"),
+        function("row_constants", "row", f"return {construct(law.Constants, 'ContactConstants', in_row)}"),
     ]
     return "\n".join(lines + _history(law.History, history, in_lane))
 
 
 def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> list[str]:
     fresh = "None" if declared is None else construct(declared, "History", ["0.0"] * width(declared))
-    lines = [_function("fresh_history", "", f"return {fresh}")]
+    lines = [function("fresh_history", "", f"return {fresh}")]
     if kept is None:
         return [
             *lines,
-            _function("read_history", "data, first, lane", f"return {fresh}"),
+            function("read_history", "data, first, lane", f"return {fresh}"),
             "write_history = carry_history = load_history = store_history = nothing",
         ]
     numbers = destruct(kept, "record")
@@ -255,61 +231,15 @@ def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> li
     rows = [f"row[{3 + k}]" for k in range(len(numbers))]
     return [
         *lines,
-        _function("read_history", "data, first, lane", f"return {construct(kept, 'History', in_lane)}"),
-        _function(
+        function("read_history", "data, first, lane", f"return {construct(kept, 'History', in_lane)}"),
+        function(
             "write_history", "data, first, lane, record", [f"{a} = {b}" for a, b in zip(in_lane, numbers, strict=False)]
         ),
-        _function(
+        function(
             "carry_history",
             "record, old, new, angle",
             f"return {construct_from_fields(kept, 'History', lambda _: next(carried))}",
         ),
-        _function("load_history", "row", f"return {construct(kept, 'History', rows)}"),
-        _function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers, strict=True)]),
+        function("load_history", "row", f"return {construct(kept, 'History', rows)}"),
+        function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers, strict=True)]),
     ]
-
-
-def _dispatch(name: str, arguments: str, branches: Sequence[str], otherwise: str) -> str:
-    """Return a function that picks a branch by ``kind``; the last branch needs no test."""
-    lines = [line for k, text in enumerate(branches[:-1]) for line in (f"if kind == {k}:", f"    return {text}")]
-    return _function(name, arguments, [*lines, f"return {branches[-1] if branches else otherwise}"])
-
-
-def _walls(plan: Blueprint) -> str:
-    lines, near = [], []
-    for k, wall in enumerate(plan.walls):
-        values = [f"row[{n}]" for n in range(width(wall.Shape))]
-        lines += [_bind(f"nearest_{k}", wall.nearest), _bind_record(f"Shape{k}", wall.Shape)]
-        near.append(f"nearest_{k}({construct(wall.Shape, f'Shape{k}', values)}, x)")
-    lines.append(_dispatch("wall_nearest", "kind, row, x", near, "None"))
-    return "\n".join([*lines, *_motions(plan)])
-
-
-def _motions(plan: Blueprint) -> list[str]:
-    lines, known, answers = [], [], []
-    for k, motion in enumerate(plan.motions):
-        values = [f"row[{n}]" for n in range(width(motion.Course))]
-        lines += [
-            _bind(f"velocity_{k}", motion.velocity),
-            _bind(f"answer_{k}", motion.answer),
-            _bind_record(f"Course{k}", motion.Course),
-        ]
-        course = construct(motion.Course, f"Course{k}", values)
-        known.append(f"velocity_{k}({course}, time)" if motion.velocity else "ZERO")  # what answers begins at rest
-        answers.append(f"answer_{k}({course}, time, pressed)" if motion.answer else known[k])
-    known.append("ZERO")  # walls without a motion stand still
-    answers.append("ZERO")
-    lines.append(_dispatch("wall_velocity", "kind, row, time", known, "ZERO"))
-    lines.append(_dispatch("wall_answer", "kind, row, time, pressed", answers, "ZERO"))
-    return lines
-
-
-def _body(plan: Blueprint) -> str:
-    lines, total, at = [], "ZERO", 0
-    for k, force in enumerate(plan.body_forces):
-        values = [f"row[{at + n}]" for n in range(width(force.Numbers))]
-        at += len(values)
-        lines += [_bind(f"acceleration_{k}", force.acceleration), _bind_record(f"Numbers{k}", force.Numbers)]
-        total = f"add({total}, acceleration_{k}({construct(force.Numbers, f'Numbers{k}', values)}, x, v, time))"
-    lines.append(_function("body_acceleration", "row, x, v, time", f"return {total}"))
-    return "\n".join(lines)

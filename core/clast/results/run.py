@@ -195,10 +195,13 @@ class Run:
         RunError
             If the file is damaged there.
         """
-        if not -self.n_frames <= k < self.n_frames:
-            raise IndexError(f"frame {k} of a run with {self.n_frames} frames")
+        self._refuse_missing(k)
         with telling_damage(self.folder / RESULTS_FILE, f"frame {k}: "):
             return self._read_frame(k % self.n_frames)
+
+    def _refuse_missing(self, k: int) -> None:
+        if not -self.n_frames <= k < self.n_frames:
+            raise IndexError(f"frame {k} of a run with {self.n_frames} frames")
 
     def _read_frame(self, k: int) -> Frame:
         frames = self._frames
@@ -225,8 +228,7 @@ class Run:
         RunError
             If the file is damaged there.
         """
-        if not -self.n_frames <= k < self.n_frames:
-            raise IndexError(f"frame {k} of a run with {self.n_frames} frames")
+        self._refuse_missing(k)
         if ENDS not in self._frames:
             return None
         with telling_damage(self.folder / RESULTS_FILE, f"contacts of frame {k}: "):
