@@ -20,7 +20,7 @@ class Gravity(Params):
     Source: Rotter, Dosta, Düster (2023), Section 4.1.1, mass scaling.
     """
 
-    acceleration: Annotated[AccelerationVector, Field(description="Acceleration of gravity")]
+    acceleration: Annotated[AccelerationVector, Field(examples=[[0, 0, -9.81]], description="Acceleration of gravity")]
 
 
 class Numbers(NamedTuple):

@@ -36,9 +36,11 @@ class Elastic(Params):
     Rotter, Dosta, Düster (2023), Eqs. 3–8; the sign s as in the authors' program, which the paper prints as +1.
     """
 
-    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E of the bond")]
-    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, description="Poisson's ratio of the bond")]
-    normal_strength: Annotated[Stress, Field(gt=0, description="Strength against tension and bending, sigma_br")]
+    young_modulus: Annotated[Stress, Field(gt=0, examples=["564.26 MPa"], description="Young's modulus E of the bond")]
+    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, examples=[0.2], description="Poisson's ratio of the bond")]
+    normal_strength: Annotated[
+        Stress, Field(gt=0, examples=["4.05 MPa"], description="Strength against tension and bending, sigma_br")
+    ]
     shear_strength: Annotated[
         Stress | None, Field(gt=0, description="Strength against shear and torsion, tau_br; none: unlimited")
     ] = None

@@ -13,10 +13,14 @@ from clast.parts.params import Params
 class YieldingBond(Params):
     """Parameters of a bond that yields at a stress and breaks at a strain."""
 
-    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E of the bond")]
-    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, description="Poisson's ratio of the bond")]
-    yield_stress: Annotated[Stress, Field(gt=0, description="Stress sigma_y that normal and shear stress can reach")]
-    breakage_strain: Annotated[Number, Field(gt=0, description="Strain at which the bond breaks, epsilon_max")]
+    young_modulus: Annotated[Stress, Field(gt=0, examples=["564.26 MPa"], description="Young's modulus E of the bond")]
+    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, examples=[0.2], description="Poisson's ratio of the bond")]
+    yield_stress: Annotated[
+        Stress, Field(gt=0, examples=["2 MPa"], description="Stress sigma_y that normal and shear stress can reach")
+    ]
+    breakage_strain: Annotated[
+        Number, Field(gt=0, examples=[0.0075], description="Strain at which the bond breaks, epsilon_max")
+    ]
     compressive_break: Annotated[
         Number, Field(ge=0, description="K: also breaks at a strain below -K epsilon_max; 0: never")
     ] = 0.0

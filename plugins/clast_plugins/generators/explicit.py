@@ -67,8 +67,17 @@ class ExplicitBond(Params):
 class Explicit(Params):
     """Particles and bonds one by one; what bonds connect forms a grain."""
 
-    particles: Annotated[list[ExplicitParticle], Field(min_length=1, description="The particles")]
-    material: Annotated[str | None, Field(description="Material of particles that name none")] = None
+    particles: Annotated[
+        list[ExplicitParticle],
+        Field(
+            min_length=1,
+            examples=[[{"position": [0, 0, 0], "radius": "1 mm"}, {"position": ["2.1 mm", 0, 0], "radius": "1 mm"}]],
+            description="The particles",
+        ),
+    ]
+    material: Annotated[str | None, Field(examples=["glass"], description="Material of particles that name none")] = (
+        None
+    )
     bonds: Annotated[tuple[ExplicitBond, ...], Field(description="The bonds")] = ()
 
     @model_validator(mode="after")

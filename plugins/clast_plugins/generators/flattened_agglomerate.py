@@ -42,8 +42,10 @@ class FlattenedAgglomerate(AgglomerateParams):
     428
     """
 
-    volume_diameter: Annotated[Length, Field(gt=0, description="Diameter of the sphere before it is flattened")]
-    height: Annotated[Length, Field(gt=0, description="Distance of the two plates, along z")]
+    volume_diameter: Annotated[
+        Length, Field(gt=0, examples=["1.2 mm"], description="Diameter of the sphere before it is flattened")
+    ]
+    height: Annotated[Length, Field(gt=0, examples=["0.9 mm"], description="Distance of the two plates, along z")]
 
     @property
     def whole(self) -> float:

@@ -44,7 +44,7 @@ class SphericalAgglomerate(AgglomerateParams):
     361
     """
 
-    diameter: Annotated[Length, Field(gt=0, description="Diameter of the agglomerate")]
+    diameter: Annotated[Length, Field(gt=0, examples=["1.2 mm"], description="Diameter of the agglomerate")]
 
     @property
     def whole(self) -> float:

@@ -17,7 +17,7 @@ from clast.plugins.registry import Registry
 class ConstantVelocity(Params):
     """Translation with one velocity from start to end."""
 
-    velocity: Annotated[VelocityVector, Field(description="Velocity of the wall")]
+    velocity: Annotated[VelocityVector, Field(examples=[[0, 0, "-10 mm/s"]], description="Velocity of the wall")]
 
 
 class Course(NamedTuple):

@@ -59,15 +59,19 @@ class ForceControl(Params):
     Colgate and Hogan (1988), doi:10.1080/00207178808906161.
     """
 
-    direction: Annotated[Direction, Field(description="Direction in which the wall presses")]
-    force: Annotated[Annotated[Force, Field(gt=0)] | None, Field(description="Force to press with")] = None
+    direction: Annotated[Direction, Field(examples=[[0, 0, -1]], description="Direction in which the wall presses")]
+    force: Annotated[
+        Annotated[Force, Field(gt=0)] | None, Field(examples=["1 N"], description="Force to press with")
+    ] = None
     stress: Annotated[
         Annotated[Stress, Field(gt=0)] | None, Field(description="Stress to press with, instead of the force")
     ] = None
     diameter: Annotated[
         Annotated[Length, Field(gt=0)] | None, Field(description="Diameter of the disc that the stress refers to")
     ] = None
-    max_velocity: Annotated[Velocity, Field(gt=0, description="Largest speed, and that of the approach")]
+    max_velocity: Annotated[
+        Velocity, Field(gt=0, examples=["10 mm/s"], description="Largest speed, and that of the approach")
+    ]
     ramp: Annotated[Time, Field(ge=0, description="Time from the start in which the force rises from 0")] = 0.0
 
     @model_validator(mode="after")

@@ -28,8 +28,10 @@ class VelocityRamp(Params):
     """
 
     start: Annotated[VelocityVector, Field(description="Velocity at the start")] = ZERO
-    end: Annotated[VelocityVector, Field(description="Velocity from the end of the ramp on")]
-    duration: Annotated[Time, Field(gt=0, description="How long the velocity changes")]
+    end: Annotated[
+        VelocityVector, Field(examples=[[0, 0, "-10 mm/s"]], description="Velocity from the end of the ramp on")
+    ]
+    duration: Annotated[Time, Field(gt=0, examples=["1 ms"], description="How long the velocity changes")]
     shape: Annotated[Literal["smooth", "linear"], Field(description="how the velocity changes meanwhile")] = "smooth"
 
 

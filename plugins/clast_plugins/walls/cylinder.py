@@ -23,9 +23,9 @@ class Cylinder(Params):
     Contacts count as contacts with a flat wall: the cylinder must be much larger than the particles.
     """
 
-    point: Annotated[Point, Field(description="A point on the axis")]
-    axis: Annotated[Direction, Field(description="Direction of the axis")]
-    radius: Annotated[Length, Field(gt=0, description="Radius of the cylinder")]
+    point: Annotated[Point, Field(examples=[[0, 0, 0]], description="A point on the axis")]
+    axis: Annotated[Direction, Field(examples=[[0, 0, 1]], description="Direction of the axis")]
+    radius: Annotated[Length, Field(gt=0, examples=["10 mm"], description="Radius of the cylinder")]
     side: Annotated[Literal["inside", "outside"], Field(description="where the particles are")] = "inside"
 
 

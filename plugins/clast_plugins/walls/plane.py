@@ -24,8 +24,10 @@ class Plane(Params):
     faces and a rim, and lets particles pass beside it.
     """
 
-    point: Annotated[Point, Field(description="A point of the plane; the centre of a plate")]
-    normal: Annotated[Direction, Field(description="Direction from the face towards the particles")]
+    point: Annotated[Point, Field(examples=[[0, 0, 0]], description="A point of the plane; the centre of a plate")]
+    normal: Annotated[
+        Direction, Field(examples=[[0, 0, 1]], description="Direction from the face towards the particles")
+    ]
     radius: Annotated[Length | None, Field(gt=0, description="Radius of a finite plate; none: infinite")] = None
 
 

@@ -42,13 +42,19 @@ class AgglomerateParams(Params):
     makes it 3 %.
     """
 
-    material: Annotated[str, Field(description="Material of the primaries")]
+    material: Annotated[str, Field(examples=["glass"], description="Material of the primaries")]
     primary_diameter: Annotated[
-        Length | None, Field(gt=0, description="Diameter of a primary; or give `porosity` and `primaries`")
+        Length | None,
+        Field(gt=0, examples=["0.25 mm"], description="Diameter of a primary; or give `porosity` and `primaries`"),
     ] = None
     porosity: Annotated[
         Number | None,
-        Field(gt=0, lt=1, description="Share of the sphere that is left free; two of these three are needed"),
+        Field(
+            gt=0,
+            lt=1,
+            examples=[0.44],
+            description="Share of the sphere that is left free; two of these three are needed",
+        ),
     ] = None
     primaries: Annotated[
         int | None, Field(ge=1, le=MOST_PRIMARIES, description="Number of primaries; two of these three are needed")
