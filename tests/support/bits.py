@@ -9,7 +9,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from clast.engine.assemble import _register
+from clast.engine.assemble import let_compiled_code_call
 
 
 def assert_same_bits(
@@ -27,7 +27,7 @@ def assert_same_bits(
     assert isinstance(sweep, FunctionType)
     plain, compiled = np.full((count, width), np.nan), np.full((count, width), np.nan)
     sweep(*arguments, plain)
-    _register(functions)
+    let_compiled_code_call(functions)
     numba.njit(error_model="numpy")(sweep)(*arguments, compiled)
     assert np.isfinite(plain).all()
     different = plain.view(np.uint64) != compiled.view(np.uint64)

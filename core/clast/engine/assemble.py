@@ -92,7 +92,7 @@ def assemble(plan: Blueprint) -> Kernel:
     name = f"clast_kernel_{digest([*plan.functions(), *helpers], text, _template_text())}"
     folder, laws = cache_folder() / name, law_files(plan.functions())
     _write_package(folder, text)
-    _register([*plan.functions(), *helpers])
+    let_compiled_code_call([*plan.functions(), *helpers])
     package = _import_package(name, folder)
     advance, observe, energies, near_walls, gaps, network = (
         Entry(getattr(_submodule(package, file), function), folder / "lock", laws)
@@ -141,7 +141,7 @@ def _write_package(folder: Path, slots: str) -> None:
 _registered: set[FunctionType] = set()
 
 
-def _register(functions: list[Callable[..., Any]]) -> None:
+def let_compiled_code_call(functions: list[Callable[..., Any]]) -> None:
     """Let compiled code call the parts' plain functions, inlined into their callers."""
     from numba.extending import register_jitable
 

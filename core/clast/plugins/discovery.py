@@ -24,7 +24,7 @@ from clast.errors import PluginError, one_line
 from clast.plugins import hookspec
 from clast.plugins.blame import FILE_MODULE, GROUP, OWN_DISTRIBUTION, line_in
 from clast.plugins.nearest import suggestion
-from clast.plugins.registry import Failure, NameTakenError, Registry, Source
+from clast.plugins.registry import Failure, NameTakenError, Registered, Registry, Source
 
 CHOICE = "CLAST_PLUGINS"
 
@@ -53,6 +53,26 @@ def discover(files: Sequence[str | Path] = (), folder: Path | None = None) -> Re
     for file in files:
         load_file((folder or Path()) / file, registry)
     return registry
+
+
+def parts_of(what: str | Path) -> list[Registered]:
+    """Parts that a file brings, or an installed plugin or distribution, or all parts of one name.
+
+    Raises
+    ------
+    PluginError
+        The file cannot be loaded, or nothing has that name.
+    """
+    if Path(what).suffix == ".py":
+        registry, path = discover([what]), str(Path(what).resolve())
+        return [entry for entry in registry if entry.source.origin == path]
+    registry, name = discover(), str(what)
+    found = [each for each in registry if name in (each.name, each.source.plugin, each.source.origin)]
+    if not found:
+        known = {text for each in registry for text in (each.name, each.source.plugin)}
+        problems = "".join(f"\n  {failure}" for failure in registry.failures)
+        raise PluginError(f"no part or plugin is named {name!r}; {suggestion(name, known)}{problems}")
+    return found
 
 
 @lru_cache(maxsize=8)

@@ -10,7 +10,7 @@ from types import ModuleType
 
 import pytest
 
-from clast.engine.assemble import _register
+from clast.engine.assemble import let_compiled_code_call
 from clast.engine.compiler import compiled
 from clast.engine.entry import Entry
 from clast.engine.law_errors import law_files
@@ -41,7 +41,7 @@ def law(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Entr
         (tmp_path / "a_law.py").write_text(HEAD + body)
         (tmp_path / "a_kernel.py").write_text(KERNEL)
         a_law, a_kernel = (imported(tmp_path / f"{name}.py", monkeypatch) for name in ("a_law", "a_kernel"))
-        _register([a_law.law])
+        let_compiled_code_call([a_law.law])
         return Entry(compiled(a_kernel.kernel), tmp_path / "lock", law_files([a_law.law]))
 
     return entry

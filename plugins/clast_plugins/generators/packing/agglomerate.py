@@ -52,7 +52,7 @@ class AgglomerateParams(Params):
         Field(
             gt=0,
             lt=1,
-            examples=[0.44],
+            examples=[0.55],
             description="Share of the sphere that is left free; two of these three are needed",
         ),
     ] = None

@@ -1,0 +1,64 @@
+"""What holds for every motion of a wall: velocities that are numbers, the same for the same question."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from clast.maths.vec3 import Vec
+from clast.parts.wall import Motion, Pressed
+from clast.testing.bits import same_bits
+from clast.testing.claim import Claim, claim, must
+from clast.testing.draws import numbers, vectors
+
+LONG, SPAN, MASS = 10.0, 1e-6, 1e-6
+
+
+def claims(motion: Motion, params: Any) -> list[Claim]:
+    """Return what a motion with parameters must keep to."""
+    course = motion.course(params)
+    return [
+        claim(
+            "the velocity is a number at every time, whatever presses",
+            lambda time, force, velocity: _sound(motion, course, time, force, velocity),
+            numbers(0.0, LONG),
+            vectors(100.0),
+            vectors(1.0),
+        ),
+        claim("compiled code gives the same bits as plain Python", lambda: _compiled_alike(motion, course)),
+    ]
+
+
+def velocity(motion: Motion, course: Any, time: float, force: Vec, velocity: Vec) -> Vec:
+    """Return the velocity of a wall in m/s that is pressed and has been moving."""
+    if motion.velocity is not None:
+        return motion.velocity(course, time)
+    assert motion.answer is not None
+    return motion.answer(course, time, Pressed(force, MASS, velocity, SPAN))
+
+
+def _sound(motion: Motion, course: Any, time: float, force: Vec, before: Vec) -> None:
+    told = velocity(motion, course, time, force, before)
+    good = len(told) == 3 and all(math.isfinite(x) for x in told)
+    must(good, lambda: f"the velocity is {told} at {time:g} s, pressed by {force} N at {before} m/s")
+
+
+def _compiled_alike(motion: Motion, course: Any) -> None:
+    ahead, answer = motion.velocity, motion.answer
+
+    def known(times: Any, forces: Any, course: Any, out: Any) -> None:
+        for k in range(len(times)):
+            out[k, 0], out[k, 1], out[k, 2] = ahead(course, times[k])  # type: ignore[misc]
+
+    def answering(times: Any, forces: Any, course: Any, out: Any) -> None:
+        for k in range(len(times)):
+            f = forces[k]
+            pressed = Pressed((f[0], f[1], f[2]), MASS, (f[3], f[4], f[5]), SPAN)
+            out[k, 0], out[k, 1], out[k, 2] = answer(course, times[k], pressed)  # type: ignore[misc]
+
+    draw = np.random.default_rng(13)
+    sweep, function = (known, ahead) if answer is None else (answering, answer)
+    assert function is not None
+    same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)
