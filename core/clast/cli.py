@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from clast.cli_plugins import plugin_option, plugins
 from clast.cli_studies import STUDY_COMMANDS, change_option
 from clast.errors import ClastError
 
@@ -54,9 +55,6 @@ def _told(error: Exception) -> tuple[str, int] | None:
 
 
 _file = click.argument("file", type=click.Path(path_type=Path))
-_plugin = click.option(
-    "--plugin", "files", multiple=True, type=click.Path(path_type=Path), help="A Python file with a plugin."
-)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -102,31 +100,8 @@ def check(file: Path, overrides: tuple[str, ...], build: bool) -> None:
     click.echo(f"{file}: valid\n{forecast(scene).text()}")
 
 
-@main.group(invoke_without_command=True)
-@_plugin
-@click.pass_context
-def plugins(ctx: click.Context, files: tuple[Path, ...]) -> None:
-    """List every part that is installed."""
-    from clast.config.describe import plugins_text
-    from clast.plugins.discovery import discover
-
-    ctx.obj = discover(files)
-    if ctx.invoked_subcommand is None:
-        click.echo(plugins_text(ctx.obj))
-
-
-@plugins.command()
-@click.argument("name")
-@click.pass_obj
-def show(registry: Any, name: str) -> None:
-    """Show the parameters and the source of the part NAME."""
-    from clast.config.describe import part_text
-
-    click.echo(part_text(registry, name))
-
-
 @main.command()
-@_plugin
+@plugin_option
 def schema(files: tuple[Path, ...]) -> None:
     """Print the JSON Schema of scene files, for editors."""
     from clast.config.json_schema import scene_schema
@@ -182,7 +157,7 @@ def report(folders: tuple[Path, ...], output: Path | None) -> None:
 @click.option("--contact-law", metavar="NAME", help="Put this contact law in the place of Clast's own.")
 @click.option("--bond-model", metavar="NAME", help="Put this bond model there.")
 @click.option("--integrator", metavar="NAME", help="Put this integrator there.")
-@_plugin
+@plugin_option
 @change_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 @click.option(
@@ -229,7 +204,7 @@ def verify(
 @click.option("--peer", type=click.Choice(["none", "lammps"]), default="none", help="Measure beside another program.")
 @click.option("--render", is_flag=True, help="Write the page from stored results, without measuring.")
 @click.option("--list", "listed", is_flag=True, help="List all sections.")
-@_plugin
+@plugin_option
 @click.pass_context
 def bench(
     ctx: click.Context,
@@ -264,5 +239,5 @@ def bench(
             ctx.exit(1)
 
 
-for _command in STUDY_COMMANDS:
+for _command in (*STUDY_COMMANDS, plugins):
     main.add_command(_command)

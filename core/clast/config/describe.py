@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 from clast.config.json_schema import model_schema
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
-from clast.plugins.registry import Registered, Registry
+from clast.plugins.registry import Registered, Registry, Source
 
 
 @dataclass(frozen=True)
@@ -32,15 +33,88 @@ def parameters(model: type[Params]) -> list[Parameter]:
 
 
 def plugins_text(registry: Registry) -> str:
-    """Table of all parts by kind, with the plugins that could not be loaded below."""
+    """Table of all parts by kind, then of the plugins: which are there, blocked or broken."""
     lines: list[str] = []
     width = max((len(entry.name) for entry in registry), default=0)
     for kind, entries in groupby(registry, key=lambda entry: entry.kind):
         lines += ["", f"{kind.replace('_', ' ')}:"]
         lines += [f"  {each.name:{width}}  {each.part.summary}  [{each.source}]" for each in entries]
-    for failure in registry.failures:
-        lines += ["", str(failure)]
-    return "\n".join(lines[1:]) if lines else "no plugin is installed; install Clast with 'pip install -e .'"
+    plugins = plugin_states(registry)
+    names = max((len(each.plugin) for each in plugins), default=0)
+    sources = max((len(each.source) for each in plugins), default=0)
+    lines += ["", "plugins:"]
+    lines += [f"  {each.plugin:{names}}  {each.source:{sources}}  {each.told}" for each in plugins]
+    return "\n".join(lines[1:]) if plugins else "no plugin is installed; install Clast with 'pip install -e .'"
+
+
+class PluginState(NamedTuple):
+    """A plugin and what became of it: ``ok``, ``blocked`` or ``broken``, and why."""
+
+    plugin: str
+    origin: str
+    version: str
+    parts: int
+    state: str
+    why: str = ""
+
+    @property
+    def source(self) -> str:
+        """Distribution and version, or path."""
+        return f"{self.origin} {self.version}".strip()
+
+    @property
+    def told(self) -> str:
+        """State in words."""
+        if self.state == "ok":
+            return f"ok, {self.parts} part{'s' if self.parts != 1 else ''}"
+        return f"{self.state}: {self.why}"
+
+
+def plugin_states(registry: Registry) -> list[PluginState]:
+    """Return what became of every plugin that is installed or named."""
+    counts = Counter(entry.source for entry in registry)
+    found = [_state(source, "ok", parts=parts) for source, parts in counts.items()]
+    found += [_state(source, "blocked", "left out by CLAST_PLUGINS") for source in registry.blocked]
+    found += [_state(each.source, "broken", each.reason) for each in registry.failures]
+    return sorted(found)
+
+
+def _state(source: Source, state: str, why: str = "", parts: int = 0) -> PluginState:
+    return PluginState(source.plugin, source.origin, source.version, parts, state, why)
+
+
+def plugins_data(registry: Registry) -> dict[str, Any]:
+    """Return what ``clast plugins --json`` prints."""
+    return {
+        "parts": [part_data(entry) for entry in registry],
+        "plugins": [each._asdict() for each in plugin_states(registry)],
+    }
+
+
+def part_data(entry: Registered) -> dict[str, Any]:
+    """Return all about a part, as plain data."""
+    return {
+        "kind": entry.kind,
+        "name": entry.name,
+        "summary": entry.part.summary,
+        **asdict(entry.source),
+        "file": str(entry.file or ""),
+        "parameters": [asdict(each) for each in parameters(entry.part.Params)],
+    }
+
+
+def found_parts(registry: Registry, name: str) -> list[Registered]:
+    """Return the parts of one name, or of one ``kind.name``.
+
+    Raises
+    ------
+    PluginError
+        No part has that name.
+    """
+    found = [entry for entry in registry if name in (entry.name, f"{entry.kind}.{entry.name}")]
+    if not found:
+        raise PluginError(f"no part is named {name!r}; {suggestion(name, {entry.name for entry in registry})}")
+    return found
 
 
 def part_text(registry: Registry, name: str) -> str:
@@ -51,10 +125,7 @@ def part_text(registry: Registry, name: str) -> str:
     PluginError
         No part has that name.
     """
-    found = [entry for entry in registry if name in (entry.name, f"{entry.kind}.{entry.name}")]
-    if not found:
-        raise PluginError(f"no part is named {name!r}; {suggestion(name, {entry.name for entry in registry})}")
-    return "\n\n".join(_entry_text(entry) for entry in found)
+    return "\n\n".join(_entry_text(entry) for entry in found_parts(registry, name))
 
 
 def _entry_text(entry: Registered) -> str:

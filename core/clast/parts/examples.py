@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from clast.errors import PluginError, one_line
+from clast.errors import PluginError
 from clast.parts.params import Params
 
 P = TypeVar("P", bound=Params)
@@ -50,4 +50,4 @@ def example(model: type[P], changes: Mapping[str, Any] | None = None) -> P:
     except ValidationError as error:
         told = error.errors()[0]
         where = ".".join([model.__name__, *(str(each) for each in told["loc"])])
-        raise PluginError(f"{where}: {one_line(ValueError(told['msg']))} (examples taken: {given})") from None
+        raise PluginError(f"{where}: {told['msg']}; given {told['input']!r}") from None

@@ -92,7 +92,9 @@ def load_entry_points(found: Iterable[EntryPoint], choice: str | None, registry:
     """
     points = sorted(found, key=lambda point: (source_of(point).origin != OWN_DISTRIBUTION, point.name))
     _refuse_shared_names(points)
-    for point in _chosen(points, choice):
+    chosen = _chosen(points, choice)
+    registry.blocked += [source_of(point) for point in points if point not in chosen]
+    for point in chosen:
         source = source_of(point)
         try:
             register(point.load(), source, registry)

@@ -37,7 +37,8 @@ KINDS = (
     "body_force",
     "writer",
 )
-_NAME = re.compile(r"[a-z][a-z0-9_]*")
+NAME = re.compile(r"[a-z][a-z0-9_]*")
+NAME_RULE = "small letters, digits and _ only, a letter first"
 
 
 class NameTakenError(PluginError):
@@ -123,10 +124,14 @@ class Failure:
     source: Source
     error: Exception
 
-    def __str__(self) -> str:
+    @property
+    def reason(self) -> str:
+        """File and line, where they are the plugin's, and what was raised."""
         place = plugin_line(self.error)
-        where = f"{place}: " if place else ""
-        return f"plugin {self.source.plugin!r} ({self.source}) could not be loaded: {where}{one_line(self.error)}"
+        return f"{place}: {one_line(self.error)}" if place else one_line(self.error)
+
+    def __str__(self) -> str:
+        return f"plugin {self.source.plugin!r} ({self.source}) could not be loaded: {self.reason}"
 
 
 class Registry:
@@ -152,6 +157,7 @@ class Registry:
         self._parts: dict[tuple[str, str], Registered] = {}
         self._source = Source(plugin="python", origin="python")
         self.failures: list[Failure] = []
+        self.blocked: list[Source] = []
 
     def generator(self, name: str, part: Generator) -> None:
         """Register a generator of particles."""
@@ -233,6 +239,7 @@ class Registry:
         twin = Registry()
         twin._parts = dict(self._parts)
         twin.failures = list(self.failures)
+        twin.blocked = list(self.blocked)
         return twin
 
     @contextmanager
@@ -251,8 +258,8 @@ class Registry:
     def _check(self, kind: str, name: str, part: Part) -> None:
         if kind not in KINDS:
             raise PluginError(f"{kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
-        if not _NAME.fullmatch(name):
-            raise PluginError(f"{name!r} is not a name for a {kind}: small letters, digits and _ only")
+        if not NAME.fullmatch(name):
+            raise PluginError(f"{name!r} is not a name for a {kind}: {NAME_RULE}")
         declared = getattr(part, "Params", None)
         if not (isinstance(declared, type) and issubclass(declared, Params)):
             raise PluginError(f"{kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params")

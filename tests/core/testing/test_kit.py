@@ -1,0 +1,55 @@
+"""The contract kit: starting files keep to it, and each way to spoil a part breaks the claim that it is about."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from clast.parts.examples import example
+from clast.plugins.discovery import parts_of
+from clast.plugins.new import starter_text
+from clast.plugins.registry import KINDS
+from clast.testing import assert_contract, claims_of
+from clast.testing.claim import try_claims
+from tests.core.testing.spoiled_parts import SPOILED
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_has_a_starting_file_that_keeps_to_its_contract(kind: str, tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text(starter_text(kind, "my_part"))
+    (entry,) = parts_of(tmp_path / "mine.py")
+    assert (entry.kind, entry.name) == (kind, "my_part")
+    assert_contract(tmp_path / "mine.py")
+
+
+@pytest.mark.parametrize(
+    ("kind", "claim", "old", "new"), SPOILED, ids=[f"{kind}: {says}" for kind, says, _, _ in SPOILED]
+)
+def test_each_way_to_spoil_a_part_breaks_its_claim(kind: str, claim: str, old: str, new: str, tmp_path: Path) -> None:
+    text = starter_text(kind, "spoiled")
+    assert old in text
+    (tmp_path / "spoiled.py").write_text(text.replace(old, new))
+    (entry,) = parts_of(tmp_path / "spoiled.py")
+    claims = claims_of(entry, example(entry.part.Params))
+    tried = claims if kind == "generator" else [each for each in claims if each.says.startswith(claim)]
+    (outcome,) = (each for each in try_claims(tried) if each.says.startswith(claim))
+    assert not outcome.passed
+    assert outcome.problem
+
+
+def test_what_a_law_raises_is_told_with_its_file_and_line(tmp_path: Path) -> None:
+    text = starter_text("bond_model", "spoiled").replace(
+        "    return max(strain.axial", "    oops()\n    return max(strain.axial"
+    )
+    (tmp_path / "spoiled.py").write_text(text)
+    line = text[: text.index("    oops()")].count("\n") + 1
+    with pytest.raises(AssertionError, match=rf"spoiled.py:{line}: raised NameError: name 'oops' is not defined"):
+        assert_contract(tmp_path / "spoiled.py")
+
+
+def test_a_part_that_breaks_a_claim_fails_the_test_of_its_author(tmp_path: Path) -> None:
+    text = starter_text("integrator", "spoiled").replace("order=2", "order=3")
+    (tmp_path / "spoiled.py").write_text(text)
+    with pytest.raises(AssertionError, match=r"spoiled: an oscillator follows .*: the order is 2.00, 3 is told"):
+        assert_contract(tmp_path / "spoiled.py")
