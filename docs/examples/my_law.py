@@ -20,9 +20,9 @@ CLAST_API = 1
 class Softening(Params):
     """(1 - D) times an elastic beam; D goes from 0 at the axial strain eps_0 to 1 at eps_f and never back."""
 
-    young_modulus: Annotated[Stress, Field(gt=0, description="Young's modulus E")]
-    damage_strain: Annotated[Number, Field(gt=0, description="Strain eps_0 at which damage begins")]
-    breakage_strain: Annotated[Number, Field(gt=0, description="Strain eps_f at which the bond breaks")]
+    young_modulus: Annotated[Stress, Field(gt=0, examples=["100 MPa"], description="Young's modulus E")]
+    damage_strain: Annotated[Number, Field(gt=0, examples=[0.001], description="Strain eps_0 where damage begins")]
+    breakage_strain: Annotated[Number, Field(gt=0, examples=[0.004], description="Strain eps_f where it breaks")]
 
 
 class BondConstants(NamedTuple):
@@ -77,7 +77,7 @@ def energy(strain, c, state):
 class Linear(Params):
     """F = k delta + c v without friction; c gives the pair's coefficient of restitution."""
 
-    stiffness: Annotated[float, Unit("N/m"), Field(gt=0, description="Stiffness k")]
+    stiffness: Annotated[float, Unit("N/m"), Field(gt=0, examples=["10 kN/m"], description="Stiffness k")]
 
 
 class ContactConstants(NamedTuple):
@@ -101,7 +101,7 @@ def contact_load(touch, c, history, dt, choices):
 
 
 def contact_energy(touch, c, history, choices):
-    return 0.5 * c.k * touch.overlap**2
+    return 0.5 * c.k * touch.overlap * touch.overlap
 
 
 def contact_stiffness(c, radius, overlap):
