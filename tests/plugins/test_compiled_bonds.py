@@ -10,6 +10,7 @@ from clast.maths.counter_random import uniform
 from clast.maths.rotation import turn
 from clast.parts.bond_kinematics import BondMotion
 from clast.parts.bond_model import BondLoad, RandomKey, Strain
+from clast.plugins.discovery import discover
 from clast_plugins.bond_kinematics import incremental, total
 from tests.support.bits import assert_same_bits, random_directions, random_rotations
 from tests.support.bonds import GEOMETRY, L0, WRITTEN, R, law
@@ -59,7 +60,14 @@ def sweep_of(model, first):
 
 @pytest.mark.parametrize(
     "name",
-    ["elastic", "elastic_plastic, K", "micro_cracking", "elastic_plastic, fibre", "micro_cracking, fibre"],
+    [
+        "elastic",
+        "timoshenko",
+        "elastic_plastic, K",
+        "micro_cracking",
+        "elastic_plastic, fibre",
+        "micro_cracking, fibre",
+    ],
 )
 def test_a_bond_model_gives_the_same_bits(name):
     draw = np.random.default_rng(7)
@@ -73,7 +81,7 @@ def test_a_bond_model_gives_the_same_bits(name):
 
 
 def test_every_registered_bond_model_is_compared():
-    assert {part for part, _ in WRITTEN.values()} == {"elastic", "elastic_plastic", "micro_cracking"}
+    assert {part for part, _ in WRITTEN.values()} == set(discover().names("bond_model"))
     assert float(GEOMETRY.L0) == L0
 
 

@@ -33,6 +33,7 @@ _FIBRE = {
 WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
     "elastic": ("elastic", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
     "elastic, absolute": ("elastic", _BEAM | {"normal_strength": STRENGTH, "normal_term": "absolute"}),
+    "timoshenko": ("timoshenko", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
     "elastic_plastic": ("elastic_plastic", _PLASTIC),
     "elastic_plastic, K": ("elastic_plastic", _PLASTIC | {"compressive_break": 2.0}),
     "micro_cracking": ("micro_cracking", _PLASTIC),

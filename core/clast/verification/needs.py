@@ -98,13 +98,22 @@ def declared(scene: SceneConfig, size: Beam) -> tuple[float, ...]:
 
 def cylinder(scene: SceneConfig) -> str | None:
     """Ask for a bond model whose stiffnesses, as it declares them, are those of a cylinder of a material."""
+    beam = Beam(*elastic_constants(scene), R=0.1, L=1.0)
+    return _stiffnesses_of(scene, beam, beam.shear, "a cylinder")
+
+
+def timoshenko_beam(scene: SceneConfig) -> str | None:
+    """Ask for a bond model whose stiffnesses, as it declares them, are those of Timoshenko's beam of a material."""
+    beam = Beam(*elastic_constants(scene), R=0.1, L=1.0)
+    return _stiffnesses_of(scene, beam, beam.bent_and_sheared, "Timoshenko's beam")
+
+
+def _stiffnesses_of(scene: SceneConfig, beam: Beam, shear: float, what: str) -> str | None:
     assert scene.bonds is not None
-    E, nu = elastic_constants(scene)
-    beam = Beam(E, nu, R=0.1, L=1.0)
-    expected = (beam.axial, beam.shear, beam.torsion, beam.bending)
+    expected = (beam.axial, shear, beam.torsion, beam.bending)
     if all(isclose(a, b, rel_tol=1e-9) for a, b in zip(declared(scene, beam), expected, strict=True)):
         return None
-    return f"the stiffnesses that {scene.bonds.model.name!r} declares are not those of a cylinder"
+    return f"the stiffnesses that {scene.bonds.model.name!r} declares are not those of {what}"
 
 
 def synchronous(scene: SceneConfig) -> str | None:

@@ -1,10 +1,12 @@
-"""What the three bond models of the paper share: a cylinder that stretches, shears, twists and bends."""
+"""What bond models share: a cylinder that stretches, shears, twists and bends."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from clast.maths.vec3 import dot
+from clast.maths.vec3 import dot, scale
 from clast.parts.bond_model import BondGeometry, BondLoad, Stiffness, Strain
 
 
@@ -16,6 +18,25 @@ def beam_stiffness(E: float, nu: float, bond: BondGeometry) -> Stiffness:
     G = E / (2.0 * (1.0 + nu))
     per_L = 1.0 / np.asarray(bond.L0)
     return Stiffness(E * bond.A * per_L, G * bond.A * per_L, G * 2.0 * bond.I * per_L, E * bond.I * per_L)
+
+
+class Springs(NamedTuple):
+    """Stiffness of one bond against each strain measure, as constants of a law: N/m, N/m, N m/rad, N m/rad."""
+
+    axial: float
+    shear: float
+    torsion: float
+    bending: float
+
+
+def spring_load(strain: Strain, k: Springs) -> BondLoad:
+    """Return stiffness times strain measure."""
+    return BondLoad(
+        normal=k.axial * strain.axial,
+        shear=scale(k.shear, strain.shear),
+        torsion=k.torsion * strain.twist,
+        bending=scale(k.bending, strain.bending),
+    )
 
 
 def beam_energy(strain: Strain, load: BondLoad) -> float:

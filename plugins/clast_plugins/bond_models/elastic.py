@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, NamedTuple
-
-from pydantic import Field
+from typing import NamedTuple
 
 from clast import hookimpl
-from clast.config.quantities import Number, Stress
 from clast.maths.vec3 import norm, scale
 from clast.parts.bond_model import BondGeometry, BondLoad, BondModel, Stiffness, Strain
-from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.bond_models.beam import beam_energy, beam_stiffness
+from clast_plugins.bond_models.strength import MODES, BrittleBond, shares
 
 
-class Elastic(Params):
+class Elastic(BrittleBond):
     r"""Linear elastic bond with separate normal and shear strengths.
 
     Equation
@@ -35,19 +32,6 @@ class Elastic(Params):
     ------
     Rotter, Dosta, Düster (2023), Eqs. 3–8; the sign s as in the authors' program, which the paper prints as +1.
     """
-
-    young_modulus: Annotated[Stress, Field(gt=0, examples=["564.26 MPa"], description="Young's modulus E of the bond")]
-    poisson_ratio: Annotated[Number, Field(gt=-1, lt=0.5, examples=[0.2], description="Poisson's ratio of the bond")]
-    normal_strength: Annotated[
-        Stress, Field(gt=0, examples=["4.05 MPa"], description="Strength against tension and bending, sigma_br")
-    ]
-    shear_strength: Annotated[
-        Stress | None, Field(gt=0, description="Strength against shear and torsion, tau_br; none: unlimited")
-    ] = None
-    normal_term: Annotated[
-        Literal["tension", "absolute"],
-        Field(description="whether compression relieves the outer fibre (tension) or loads it (absolute)"),
-    ] = "tension"
 
 
 class Constants(NamedTuple):
@@ -80,8 +64,8 @@ def constants(params: Elastic, bond: BondGeometry) -> Constants:
         W=bond.I / bond.R,
         W_t=J / bond.R,
         per_normal_strength=1.0 / params.normal_strength,
-        per_shear_strength=0.0 if params.shear_strength is None else 1.0 / params.shear_strength,
-        compression_sign=-1.0 if params.normal_term == "tension" else 1.0,
+        per_shear_strength=params.per_shear_strength,
+        compression_sign=params.compression_sign,
     )
 
 
@@ -100,26 +84,21 @@ def load(strain: Strain, c: Constants, state: None) -> BondLoad:
     )
 
 
-def normal_stress(load: BondLoad, c: Constants) -> float:
-    """Return the stress of the outermost fibre in Pa, Eq. 7."""
-    sign = 1.0 if load.normal > 0.0 else c.compression_sign
-    return sign * abs(load.normal) / c.A + norm(load.bending) / c.W
-
-
-def shear_stress(load: BondLoad, c: Constants) -> float:
-    """Return the largest shear stress in Pa, Eq. 8."""
-    return norm(load.shear) / c.A + abs(load.torsion) / c.W_t
+def fibre_shares(load: BondLoad, c: Constants) -> tuple[float, float]:
+    """Return normal and shear stress of the outermost fibre, each as a share of its strength; Eqs. 7–8."""
+    return shares(load.normal, norm(load.shear), load.torsion, norm(load.bending), c)
 
 
 def failure(strain: Strain, load: BondLoad, c: Constants, state: None) -> float:
     """Return the larger of the two stresses, each as a share of its strength."""
-    return max(normal_stress(load, c) * c.per_normal_strength, shear_stress(load, c) * c.per_shear_strength)
+    normal, shear = fibre_shares(load, c)
+    return max(normal, shear)
 
 
 def mode(strain: Strain, load: BondLoad, c: Constants, state: None) -> int:
     """Return 0 for a break in tension, 1 in shear."""
-    by_shear = shear_stress(load, c) * c.per_shear_strength > normal_stress(load, c) * c.per_normal_strength
-    return 1 if by_shear else 0
+    normal, shear = fibre_shares(load, c)
+    return 1 if shear > normal else 0
 
 
 def energy(strain: Strain, c: Constants, state: None) -> float:
@@ -142,6 +121,6 @@ def clast_register(registry: Registry) -> None:
             failure=failure,
             mode=mode,
             energy=energy,
-            modes=("tension", "shear"),
+            modes=MODES,
         ),
     )

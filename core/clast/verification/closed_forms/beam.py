@@ -1,7 +1,7 @@
 """Closed forms of bonds as beams: one of them, and a cantilever that consists of them.
 
 Sources: the stiffnesses are Eqs. 3–6 of Rotter, Dosta and Düster (2023), doi:10.1007/s40571-023-00610-0; the
-continuous cantilever is that of S. P. Timoshenko with the shear coefficient 1, which the bonds have.
+continuous cantilever is that of S. P. Timoshenko. Bonds that are cylinders have the shear coefficient 1.
 """
 
 from __future__ import annotations
@@ -67,6 +67,16 @@ class Beam:
         return self.G * self.A / self.L
 
     @property
+    def cowper(self) -> float:
+        """Shear coefficient κ = 6 (1 + ν)/(7 + 6 ν): G. R. Cowper (1966), doi:10.1115/1.3625046."""
+        return 6.0 * (1.0 + self.nu) / (7.0 + 6.0 * self.nu)
+
+    @property
+    def bent_and_sheared(self) -> float:
+        """12 EI/(L³ (1 + Φ)), Φ = 12 EI/(κ G A L²), in N/m: against moving one end across, neither end turning."""
+        return 1.0 / (self.L**2 / (12.0 * self.bending) + 1.0 / (self.cowper * self.shear))
+
+    @property
     def torsion(self) -> float:
         """GJ/L in N m/rad."""
         return 2.0 * self.G * self.I / self.L
@@ -110,9 +120,17 @@ class Cantilever:
         """EI in N m²."""
         return self.bond.bending * self.bond.L
 
-    def timoshenko(self, load: float) -> float:
-        """Return the tip's deflection under a small load P across the beam: P L³/(3 EI) + P L/(GA), in m."""
-        return load * self.length**3 / (3.0 * self.bending) + load * self.length / (self.bond.shear * self.bond.L)
+    def euler(self, load: float) -> float:
+        """Return the tip's deflection under a small load P across a beam stiff in shear: P L³/(3 EI), in m."""
+        return load * self.length**3 / (3.0 * self.bending)
+
+    def timoshenko(self, load: float, kappa: float = 1.0) -> float:
+        """Return the same of a beam with the shear coefficient κ: P L³/(3 EI) + P L/(κ GA), in m."""
+        return self.euler(load) + load * self.length / (kappa * self.bond.shear * self.bond.L)
+
+    def slope(self, load: float) -> float:
+        """Return what both turn by at the tip: P L²/(2 EI), in rad."""
+        return 0.5 * load * self.length**2 / self.bending
 
     def deflection(self, load: float) -> float:
         """Return the same of the row of n bonds: P L³/(3 EI) (1 − 1/(4 n²)) + P L/(GA).
@@ -120,7 +138,7 @@ class Cantilever:
         Bond k turns its end against its beginning by the moment in its middle, P (n − k − ½) l, times l/EI, and slants
         by the mean of both turns plus P/(GA); the sum over all bonds is the trapezoidal rule for the beam's integral.
         """
-        bent = load * self.length**3 / (3.0 * self.bending) * (1.0 - 0.25 / self.n**2)
+        bent = self.euler(load) * (1.0 - 0.25 / self.n**2)
         return bent + load * self.length / (self.bond.shear * self.bond.L)
 
     def bending_modes(self, mass: float, inertia: float) -> tuple[Floats, Floats]:

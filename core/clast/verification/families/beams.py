@@ -67,6 +67,30 @@ def judge_small(bench: Bench) -> Findings:
     yield Sketch("a small load: against Timoshenko", "bonds", "error of the deflection", (line, dots), logarithmic=True)
 
 
+def judge_timoshenko(bench: Bench) -> Findings:
+    """Compare deflection and slope of beams that bend and shear along each bond with the continuous beam."""
+    simulation = at_rest(bench)
+    scene, ends = simulation.scene, tips(simulation.scene)
+    deflections = (position(simulation) - scene.position)[ends, 2]
+    slopes = 2.0 * np.arcsin(np.linalg.norm(orientation(simulation)[ends, 1:], axis=1))
+    ratios, over_euler = [], []
+    for beam, end, w, turned in zip(chains(scene), ends, deflections.tolist(), slopes.tolist(), strict=True):
+        load, kappa = float(scene.force[end, 2]), beam.bond.cowper
+        slender = beam.length / (2.0 * beam.bond.R)
+        name = f"{beam.n} bonds, L/D = {slender:.3g}"
+        yield Finding(f"{name}: deflection of the tip, m", beam.timoshenko(load, kappa), w, DISCRETE)
+        yield Finding(f"{name}: slope of the tip, rad", beam.slope(load), turned, DISCRETE)
+        ratios.append(slender)
+        over_euler.append(w / beam.euler(load))
+    yield Finding("slenderest: deflection over Euler and Bernoulli's", 1.0, over_euler[int(np.argmax(ratios))], SLENDER)
+    beam = chains(scene)[0]
+    fine = np.geomspace(min(ratios), max(ratios), 60)
+    shear = 3.0 * beam.bond.E / (beam.bond.cowper * beam.bond.G) / 16.0
+    line = Line("1 + 3 EI/(κGA L²)", fine, 1.0 + shear / fine**2)
+    dots = Line("Clast", np.array(ratios), np.array(over_euler), dots=True)
+    yield Sketch("Timoshenko's beam", "slenderness L/D", "deflection over Euler and Bernoulli's", (line, dots))
+
+
 def judge_elastica(bench: Bench) -> Findings:
     """Compare large deflections with the elastica: of the beams as they are, and in the limit of many bonds."""
     simulation = at_rest(bench)
@@ -164,6 +188,14 @@ FAMILY = Family(
             judge_small,
             "P L³/(3 EI) (1 − 1/(4 n²)) + P L/(GA), the sum over n bonds",
             (needs.cylinder,),
+        ),
+        Case(
+            "beam_timoshenko",
+            "cantilevers of Timoshenko beams, thick and slender",
+            "beam_timoshenko",
+            judge_timoshenko,
+            "P L³/(3 EI) + P L/(κGA) and P L²/(2 EI) for any number of bonds; κ: Cowper (1966), doi:10.1115/1.3625046",
+            (needs.timoshenko_beam,),
         ),
         Case(
             "beam_elastica",
