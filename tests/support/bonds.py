@@ -34,6 +34,17 @@ WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
     "elastic": ("elastic", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
     "elastic, absolute": ("elastic", _BEAM | {"normal_strength": STRENGTH, "normal_term": "absolute"}),
     "timoshenko": ("timoshenko", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
+    "mohr_coulomb": (
+        "mohr_coulomb",
+        {
+            "effective_modulus": 500e6,
+            "stiffness_ratio": 2.5,
+            "tensile_strength": 4e6,
+            "cohesion": 6e6,
+            "friction_angle": math.radians(30.0),
+            "moment_contribution": 0.5,
+        },
+    ),
     "elastic_plastic": ("elastic_plastic", _PLASTIC),
     "elastic_plastic, K": ("elastic_plastic", _PLASTIC | {"compressive_break": 2.0}),
     "micro_cracking": ("micro_cracking", _PLASTIC),

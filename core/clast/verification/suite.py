@@ -9,6 +9,7 @@ from clast.plugins.nearest import suggestion
 from clast.verification.case import Case, Family
 from clast.verification.families import (
     beams,
+    bond_laws,
     bond_models,
     bonds,
     impacts,
@@ -29,6 +30,7 @@ FAMILIES: tuple[Family, ...] = (
     solitary_wave.FAMILY,
     bonds.FAMILY,
     bond_models.FAMILY,
+    bond_laws.FAMILY,
     scatter.FAMILY,
     beams.FAMILY,
     rotations.FAMILY,

@@ -10,14 +10,18 @@ from clast.maths.vec3 import dot, scale
 from clast.parts.bond_model import BondGeometry, BondLoad, Stiffness, Strain
 
 
+def cylinder_stiffness(E: float, G: float, bond: BondGeometry) -> Stiffness:
+    """Return EA/L0, GA/L0, GJ/L0, EI/L0 of all bonds, with J = 2I."""
+    per_L = 1.0 / np.asarray(bond.L0)
+    return Stiffness(E * bond.A * per_L, G * bond.A * per_L, G * 2.0 * bond.I * per_L, E * bond.I * per_L)
+
+
 def beam_stiffness(E: float, nu: float, bond: BondGeometry) -> Stiffness:
     """Return EA/L0, GA/L0, GJ/L0, EI/L0 of all bonds, with G = E/(2(1+ν)) and J = 2I.
 
     Source: Rotter, Dosta, Düster (2023), Eqs. 3–6.
     """
-    G = E / (2.0 * (1.0 + nu))
-    per_L = 1.0 / np.asarray(bond.L0)
-    return Stiffness(E * bond.A * per_L, G * bond.A * per_L, G * 2.0 * bond.I * per_L, E * bond.I * per_L)
+    return cylinder_stiffness(E, E / (2.0 * (1.0 + nu)), bond)
 
 
 class Springs(NamedTuple):
