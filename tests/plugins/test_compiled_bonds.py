@@ -63,6 +63,8 @@ def sweep_of(model, first):
     [
         "elastic",
         "timoshenko",
+        "mohr_coulomb",
+        "cohesive",
         "elastic_plastic, K",
         "micro_cracking",
         "elastic_plastic, fibre",

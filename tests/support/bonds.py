@@ -45,6 +45,16 @@ WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
             "moment_contribution": 0.5,
         },
     ),
+    "cohesive": (
+        "cohesive",
+        _BEAM
+        | {
+            "tensile_strength": 2e6,
+            "shear_strength": 3e6,
+            "fracture_energy": 4.0,
+            "shear_fracture_energy": 9.0,
+        },
+    ),
     "elastic_plastic": ("elastic_plastic", _PLASTIC),
     "elastic_plastic, K": ("elastic_plastic", _PLASTIC | {"compressive_break": 2.0}),
     "micro_cracking": ("micro_cracking", _PLASTIC),

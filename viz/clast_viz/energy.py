@@ -35,7 +35,7 @@ BANDS = (
     Band("elastic: contacts", "#67a9cf", ("contact_elastic",)),
     Band("kinetic", "#fdb863", ("kinetic",)),
     Band("micro-crack drops", "#b2182b", ("drops",)),
-    Band("plastic work", "#d6604d", ("plastic",)),
+    Band("plastic work, damage", "#d6604d", ("plastic",)),
     Band("broken bonds", "#7f3b08", ("broken",)),
     Band("sliding and rolling", "#5aae61", ("sliding", "rolling", "contact_stiffening")),
     Band("dashpots of contacts", "#a6dba0", ("contact_viscous",)),

@@ -114,8 +114,10 @@ class Blueprint:
 
     @property
     def bond_velocity(self) -> bool:
-        """Whether the kinematics of bonds sums up how the ends move."""
-        return self.bonds is not None and self.bonds.kinematics.needs_velocity
+        """Whether bonds see how their ends move: where kinematics sums it up, or the work of what flows is booked."""
+        if self.bonds is None:
+            return False
+        return self.bonds.kinematics.needs_velocity or (self.ledger and self.bonds.model.flow is not None)
 
     @property
     def velocity_forces(self) -> bool:

@@ -52,7 +52,7 @@ class Ledger(NamedTuple):
         What tangential springs lose as contacts become softer, less what they gain as contacts become stiffer:
         Mindlin's tangential force is not the gradient of an energy.
     plastic, drops, broken : float
-        Plastic work of bonds, what their stress drops released, what breaking bonds still held.
+        What bonds lost by flow, plastic or by damage, what their stress drops released, what breaking bonds still held.
     left : float
         What particles that left the domain took along, with their bonds.
     """

@@ -134,7 +134,7 @@ def _bonds(plan: Blueprint) -> str:
         names = ["measure", "end_loads", "load", "flow", "failure", "mode", "energy", "overload", "on_event", "beyond"]
         readers = ["uniforms", "reference", "constants", "damping", "kinematic_state", "bond_state"]
         lines = [f"bond_{name} = nothing" for name in names] + [f"read_{name} = nothing" for name in readers]
-        return "\n".join([*lines, "write_kinematic_state = write_bond_state = reflected = nothing"])
+        return "\n".join([*lines, "write_kinematic_state = write_bond_state = nothing"])
     bonds, at = plan.bonds, bond_offsets(plan.bonds)
     model, kinematics = bonds.model, bonds.kinematics
     lines = [
@@ -156,20 +156,10 @@ def _bonds(plan: Blueprint) -> str:
         _writer("write_kinematic_state", kinematics.State, at["kinematic_state"]),
         _reader("read_bond_state", model.State, "BondState", at["state"]),
         _writer("write_bond_state", model.State, at["state"]),
-        _reflection(model.State),
         *_bond_constants(bonds, at["constants"]),
         function("read_damping", "data, lane", f"return ({', '.join(_lane(at['damping'] + k) for k in range(4))})"),
     ]
     return "\n".join(lines)
-
-
-def _reflection(state: type | None) -> str:
-    """Return a function of two states: the one as far beyond the second as the first is before it."""
-    if state is None:
-        return "reflected = nothing"
-    pairs = zip(destruct(state, "before"), destruct(state, "after"), strict=True)
-    values = [f"2.0 * {after} - {before}" for before, after in pairs]
-    return function("reflected", "before, after", f"return {construct(state, 'BondState', values)}")
 
 
 def _bond_constants(bonds: BondPlan, first: int) -> list[str]:

@@ -131,6 +131,9 @@ class BondModel:
         Above 1 a discrete event is due.
     on_event : (strain, constants, state, key) -> State, optional
         One discrete event, e.g. a stress drop; repeated while ``overload`` stays above 1.
+    misfit : (params, geometry) -> str or None, optional
+        Why some bond of this geometry cannot have these parameters, and what to change; None where all can. Takes
+        scattered parameters as arrays, as ``constants`` does.
     variant : (params) -> BondModel, optional
         The law for given parameters, which takes the place of this one: what an option needs of state and arithmetic
         costs nothing where it is not chosen.
@@ -150,4 +153,5 @@ class BondModel:
     flow: Callable[..., Any] | None = None
     overload: Callable[..., float] | None = None
     on_event: Callable[..., Any] | None = None
+    misfit: Callable[[Any, BondGeometry], str | None] | None = None
     variant: Callable[[Any], BondModel] | None = None

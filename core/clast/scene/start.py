@@ -10,7 +10,7 @@ from clast.config.sections import Domain
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
 from clast.scene.plan import material_pairs, wall_shapes
-from clast.scene.scatter import refuse_beyond_bounds
+from clast.scene.scatter import multiplied, refuse_beyond_bounds, scatter_entries
 from clast.scene.scene import Scene
 
 COARSEST = 1e-6
@@ -25,12 +25,13 @@ def check_start(scene: Scene) -> None:
     ConfigError
         If two materials that can touch have no settings, walls have no contact law, a bond model has no bonds, a track
         names what is not there, particles lie outside the domain, are so far from the origin or so near to each other
-        that round-off is a visible share of what moves them, a bond's parameters scatter beyond their bounds, or bodies
-        overlap too much.
+        that round-off is a visible share of what moves them, a bond's parameters scatter beyond their bounds or do not
+        go with its size, or bodies overlap too much.
     """
     check_contacts(scene)
     check_bonds(scene.config, len(scene.ends))
     refuse_beyond_bounds(scene.config, scene.factors)
+    _refuse_misfits(scene)
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
     _refuse_outsiders(scene)
     _refuse_coarse_positions(scene)
@@ -68,6 +69,16 @@ def check_bonds(config: SceneConfig, bonds: float) -> None:
             "no particles are bonded; add 'between' with a 'max_gap', or bonds to the particles, or remove this section"
         )
         raise config.problem(("bonds",), text)
+
+
+def _refuse_misfits(scene: Scene) -> None:
+    config = scene.config
+    if config.bonds is None or config.bonds.model.part.misfit is None or len(scene.ends) == 0:
+        return
+    params = multiplied(config.bonds.model.params, scatter_entries(config), scene.factors)
+    text = config.bonds.model.part.misfit(params, scene.bond_geometry)
+    if text is not None:
+        raise config.problem(("bonds", "model"), text)
 
 
 def check_tracks(config: SceneConfig, particles: float, bonds: float) -> None:

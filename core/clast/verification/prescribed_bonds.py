@@ -41,12 +41,15 @@ class Model:
         The bond breaks at 1.
     scale : float
         Strength or yield stress in Pa.
+    accuracy : float
+        Of a stress, as a share of it.
     """
 
     normal: Callable[[Course, Floats, int], Floats]
     shear: Callable[[Course, Floats, int], Floats]
     criterion: Callable[[Course, Any], Any]
     scale: float
+    accuracy: float = EXACT
 
     def stresses(self, course: Course, t: Floats, bond: int) -> Floats:
         """Return both stresses at (k,) times, (k, 2) in Pa."""
@@ -91,7 +94,9 @@ def judge(bench: Bench, names: Sequence[str], model: Model) -> Findings:
         wanted, before = (model.stresses(course, t, b) for t in (time[holds], time[holds] - simulation.dt))
         smooth = np.abs(wanted - before).max(axis=1) < 0.01 * model.scale  # a drop may be due at the next evaluation
         error = float(np.abs(stresses - wanted)[smooth].max()) / model.scale
-        yield Finding(f"{name}: largest error of a stress, share of {model.scale:.3g} Pa", 0.0, error, EXACT, True)
+        yield Finding(
+            f"{name}: largest error of a stress, share of {model.scale:.3g} Pa", 0.0, error, model.accuracy, True
+        )
         if name in SHOWN:
             strain = course.axial(time[holds]) if name == "tension" else course.shear(time[holds])
             component = SHOWN.index(name)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from clast.engine.compiler import inlined
 from clast.engine.state import Floats, Particles
 from clast.maths.rotation import IDENTITY
-from clast.maths.vec3 import ZERO, scale
-from clast.parts.bond_kinematics import BondMotion
+from clast.maths.vec3 import ZERO, dot, scale, sub
+from clast.parts.bond_kinematics import BondMotion, EndLoads
+from clast.parts.bond_model import BondLoad
 
 from .bond_dashpots import damped
 from .lanes import put, vector
@@ -56,7 +57,6 @@ from .slots import (
     read_constants,
     read_kinematic_state,
     read_reference,
-    reflected,
     write_bond_state,
     write_kinematic_state,
 )
@@ -115,10 +115,9 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     if BOND_DAMPING:
         ends = damped(ends, motion.d, scratch, data, lane)
     if BOND_FLOW and LEDGER:
-        # the flow is half over when the strain is half-way: as much before the new state as beyond it
-        beyond = reflected(before, state)
-        lost = bond_energy(strain, constants, before) - bond_energy(strain, constants, beyond)
-        scratch[FLOWED * LANES + lane] = 0.5 * lost
+        freed = bond_energy(strain, constants, before) - bond_energy(strain, constants, state)
+        slack = lessened(bond_load(strain, constants, before), load)
+        scratch[FLOWED * LANES + lane] = freed - 0.5 * work_of(bond_end_loads(slack, frame), scratch, lane, dt)
     write_kinematic_state(data, lane, kinematic_state)
     if BOND_FLOW:
         write_bond_state(data, lane, state)
@@ -131,6 +130,25 @@ def bond_lane(scratch: Floats, data: Floats, lane: int, uniforms: tuple[float, .
     put(scratch, BOND_F, lane, ends.force)
     put(scratch, BOND_MI, lane, ends.moment_i)
     put(scratch, BOND_MJ, lane, ends.moment_j)
+
+
+@inlined
+def lessened(load: BondLoad, by: BondLoad) -> BondLoad:
+    """Return the difference of two loads."""
+    return BondLoad(
+        load.normal - by.normal, sub(load.shear, by.shear), load.torsion - by.torsion, sub(load.bending, by.bending)
+    )
+
+
+@inlined
+def work_of(ends: EndLoads, scratch: Floats, lane: int, dt: float) -> float:
+    """Return the work that loads as they are now took from the ends since the forces before, in J."""
+    moved, turned_i, turned_j = (
+        vector(scratch, BOND_V, lane),
+        vector(scratch, BOND_WI, lane),
+        vector(scratch, BOND_WJ, lane),
+    )
+    return -dt * (dot(ends.force, moved) + dot(ends.moment_i, turned_i) + dot(ends.moment_j, turned_j))
 
 
 @inlined

@@ -53,7 +53,7 @@ def nothing(*args: Any) -> Any:
 
 
 bond_measure = bond_end_loads = bond_load = bond_flow = bond_failure = bond_mode = bond_energy = nothing
-bond_overload = bond_on_event = bond_beyond = reflected = nothing
+bond_overload = bond_on_event = bond_beyond = nothing
 read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
 contact_load = contact_energy = contact_losses = read_contact_constants = row_constants = nothing

@@ -79,3 +79,68 @@ def cracking(strain: Floats, shares: Floats) -> Floats:
     lost = np.concatenate([[0.0], np.cumsum(1.0 - shares)])
     drops = np.searchsorted(1.0 + lost[:-1], strain)
     return np.asarray(strain - lost[drops])
+
+
+@dataclass(frozen=True)
+class Softening:
+    """A cohesive bond: linear softening by opening and sliding, root mean squares over the section.
+
+    Source: P. P. Camanho, C. G. Dávila (2002), NASA/TM-2002-211737, with the criterion of the energies linear.
+
+    Attributes
+    ----------
+    normal, shear : float
+        E and G in Pa.
+    strength, shear_strength : float
+        In Pa.
+    energy, shear_energy : float
+        Energies of fracture in J/m².
+
+    Examples
+    --------
+    A bond of 1 m that is pulled holds half of its strength half-way between first damage and end:
+
+    >>> bond = Softening(normal=1.0, shear=1.0, strength=0.1, shear_strength=0.1, energy=0.1, shear_energy=0.1)
+    >>> pulled = Course(length=1.0, radius=1.0, stretching=1.0, sliding=0.0, twisting=0.0, bending=0.0)
+    >>> round(float(bond.left(pulled, 1.05)) * 1.05, 12), float(bond.reached(pulled, 2.0))
+    (0.05, 1.0)
+    """
+
+    normal: float
+    shear: float
+    strength: float
+    shear_strength: float
+    energy: float
+    shear_energy: float
+
+    def left(self, course: Course, t: Times) -> Any:
+        """Return the share of the stiffness that is left, 1 − D, at the times of a growing strain."""
+        by_stress, end = self._measures(course, t)
+        beyond = np.maximum(by_stress, 1.0)
+        return 1.0 - np.minimum(end * (beyond - 1.0) / (beyond * (end - 1.0)), 1.0)
+
+    def reached(self, course: Course, t: Times) -> Any:
+        """Return the strain as a share of that at which nothing is left."""
+        by_stress, end = self._measures(course, t)
+        return by_stress / end
+
+    def spent(self, course: Course, t: Times) -> Any:
+        """Return the energy in J/m² that breaking takes in the proportion of opening to sliding at a time."""
+        opening, sliding = self._shares(course, t)
+        return (opening * self.energy + sliding * self.shear_energy) / (opening + sliding)
+
+    def _shares(self, course: Course, t: Times) -> tuple[Any, Any]:
+        a, b = _separations(course, t)
+        return self.normal * course.length * a / self.energy, self.shear * course.length * b / self.shear_energy
+
+    def _measures(self, course: Course, t: Times) -> tuple[Any, Any]:
+        a, b = _separations(course, t)
+        square = a * (self.normal / self.strength) ** 2 + b * (self.shear / self.shear_strength) ** 2
+        opening, sliding = self._shares(course, t)
+        return np.sqrt(square), 2.0 * square / (opening + sliding)
+
+
+def _separations(course: Course, t: Times) -> tuple[Any, Any]:
+    """Return the squares of the strains by opening and by sliding, means over the section."""
+    opened = np.maximum(course.axial(t), 0.0) ** 2 + 0.25 * course.bent(t) ** 2
+    return opened, course.shear(t) ** 2 + 0.5 * course.twisted(t) ** 2
