@@ -9,9 +9,10 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.config.sections import StepRule
+from clast.engine.damped_step import stable_step
 from clast.engine.time_step import asked_step, bond_limit, contact_limit, local_limit, pair_limit, rayleigh_limit
 from clast.parts.generator import Estimate
-from clast.scene.plan import bond_stiffness
+from clast.scene.plan import bond_stiffness, damping_coefficients
 from clast.scene.scatter import Factors, draw_factors, scatter_entries
 from clast.scene.scene import Scene
 
@@ -53,8 +54,7 @@ def time_step(sample: Scene, coordination: float | None) -> float:
     if config.time.selective_mass_scaling is not None:
         spectral = max(spectral, config.time.selective_mass_scaling)
     step = asked_step(config, min(rayleigh_limit(sample), bond_limit(sample)), spectral, contact)
-    damping = config.integrator.part.damping_factor(config.bonds.damping if config.bonds is not None else 0.0)
-    pair = pair_limit(sample) * damping if config.time.selective_mass_scaling is None else math.inf
+    pair = pair_limit(sample) if config.time.selective_mass_scaling is None else math.inf
     most = min(pair, 10.0 * contact)
     if step > most and not config.time.allow_unstable:
         raise config.problem(
@@ -66,20 +66,26 @@ def time_step(sample: Scene, coordination: float | None) -> float:
 
 
 def packed_limit(sample: Scene, coordination: float) -> float:
-    """Return about 2/ω_max of a random packing in s, from two of its primaries and its bonds per primary.
+    """Return about the stable step of a random packing in s, from two of its primaries and its bonds per primary.
 
     Bonds in all directions hold a primary against moving with Z/3 (k_n + 2 k_t)/m, against turning with
     Z (2/3 k_t L²/4 + (k_tor + 2 k_b)/3)/I; in the fastest mode its neighbours do the opposite, which doubles it. Of 14
     packings (porosity 0.45 to 0.75, 4 to 30 bonds a primary) 13 gave 0.93 to 1.12 of the exact limit of their bonds,
-    one in which only gaps were bonded 1.31.
+    one in which only gaps were bonded 1.31. Dashpots hold as springs do: see :mod:`clast.engine.damped_step`.
     """
     if len(sample.ends) == 0:
         return math.inf
-    k, inertia = bond_stiffness(sample), 0.4 * sample.mass * sample.radius**2
-    moving = coordination / 3.0 * (k.axial + 2.0 * k.shear) / sample.mass.min()
+    mass, inertia = sample.mass.min(), (0.4 * sample.mass * sample.radius**2).min()
+    springs, dashpots = np.column_stack(bond_stiffness(sample)), damping_coefficients(sample)
     lever = 0.5 * sample.length
-    turning = coordination / 3.0 * (2.0 * k.shear * lever**2 + k.torsion + 2.0 * k.bending) / inertia.min()
-    return 2.0 / math.sqrt(2.0 * max(float(np.max(moving)), float(np.max(turning))))
+
+    def eigenvalue(per_time: float) -> float:
+        axial, shear, torsion, bending = (springs + per_time * dashpots).T
+        moving = coordination / 3.0 * (axial + 2.0 * shear) / mass
+        turning = coordination / 3.0 * (2.0 * shear * lever**2 + torsion + 2.0 * bending) / inertia
+        return 2.0 * max(float(np.max(moving)), float(np.max(turning)))
+
+    return stable_step(eigenvalue, sample.config.integrator.part.damping_factor)
 
 
 def step_notes(config: SceneConfig, packed: bool, bonded: bool, scattered: bool) -> tuple[str, ...]:

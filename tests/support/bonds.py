@@ -34,6 +34,10 @@ WRITTEN: dict[str, tuple[str, dict[str, Any]]] = {
     "elastic": ("elastic", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
     "elastic, absolute": ("elastic", _BEAM | {"normal_strength": STRENGTH, "normal_term": "absolute"}),
     "timoshenko": ("timoshenko", _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH}),
+    "kelvin": (
+        "kelvin",
+        _BEAM | {"normal_strength": STRENGTH, "shear_strength": SHEAR_STRENGTH, "retardation_time": 2e-6},
+    ),
     "mohr_coulomb": (
         "mohr_coulomb",
         {

@@ -19,7 +19,7 @@ from clast.engine.impact import impact_duration
 from clast.engine.records import build, width
 from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import Touch
-from clast.scene.plan import blueprint, bond_stiffness, material_pairs
+from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients, material_pairs
 from clast.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -157,15 +157,19 @@ def smallest(scene: Scene, material: int) -> tuple[float, float]:
 
 
 def pair_limit(scene: Scene) -> float:
-    """Return the smallest 2/√(K (1/m_i + 1/m_j)) of a bond whose ends are free otherwise: ``network`` is never above.
+    """Return the stable step of the stretching of a bond whose ends are free otherwise: the scene's is never above.
 
-    The other bonds only add energy to the stretching of this one, so the network's ω_max is at least as large.
+    Without dashpots the smallest 2/√(K (1/m_i + 1/m_j)). The other bonds only add energy to the stretching of this one,
+    so ω_max of the scene is at least as large.
     """
+    from clast.engine.damped_step import stable_step
+
     if len(scene.ends) == 0:
         return np.inf
-    inverse_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)
-    square = float(np.max(bond_stiffness(scene).axial * inverse_mass[scene.ends].sum(axis=1)))
-    return float(2.0 / np.sqrt(square)) if square > 0.0 else np.inf
+    inverse_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)[scene.ends].sum(axis=1)
+    k, c = bond_stiffness(scene).axial, damping_coefficients(scene)[:, 0]
+    factor = scene.config.integrator.part.damping_factor
+    return stable_step(lambda per_time: float(np.max((k + per_time * c) * inverse_mass)), factor)
 
 
 def choose_step(scene: Scene, found: Limits) -> float:

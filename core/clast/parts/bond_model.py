@@ -89,6 +89,15 @@ class Stiffness(NamedTuple):
     bending: NDArray[np.float64]
 
 
+class Dashpots(NamedTuple):
+    """Viscosity of each bond against the rate of each strain measure, (m,) float64: N s/m, N s/m, N m s, N m s."""
+
+    axial: NDArray[np.float64]
+    shear: NDArray[np.float64]
+    torsion: NDArray[np.float64]
+    bending: NDArray[np.float64]
+
+
 class RandomKey(NamedTuple):
     """What makes a bond's random numbers its own: see :func:`clast.maths.counter_random.uniform`."""
 
@@ -131,6 +140,9 @@ class BondModel:
         Above 1 a discrete event is due.
     on_event : (strain, constants, state, key) -> State, optional
         One discrete event, e.g. a stress drop; repeated while ``overload`` stays above 1.
+    dashpots : (params, geometry) -> Dashpots, optional
+        Viscous loads beside ``load``, in proportion to the rates of the strain measures; those of ``bonds.damping`` are
+        added. ``failure`` does not see them. Takes scattered parameters as ``constants`` does.
     misfit : (params, geometry) -> str or None, optional
         Why some bond of this geometry cannot have these parameters, and what to change; None where all can. Takes
         scattered parameters as arrays, as ``constants`` does.
@@ -153,5 +165,6 @@ class BondModel:
     flow: Callable[..., Any] | None = None
     overload: Callable[..., float] | None = None
     on_event: Callable[..., Any] | None = None
+    dashpots: Callable[[Any, BondGeometry], Dashpots] | None = None
     misfit: Callable[[Any, BondGeometry], str | None] | None = None
     variant: Callable[[Any], BondModel] | None = None

@@ -15,7 +15,7 @@ from clast.engine.records import fields, leaves
 from clast.engine.state import Floats
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
-from clast.scene.scatter import STIFFNESS, Form, form_of_constants, of_each_bond, scatter_entries
+from clast.scene.scatter import DASHPOTS, STIFFNESS, Form, form_of_constants, of_each_bond, scatter_entries
 from clast.scene.scene import Scene
 
 
@@ -51,7 +51,7 @@ def _bond_plan(scene: Scene) -> BondPlan | None:
         for f, v in zip(fields(type(record)), leaves(record), strict=True)
         for _ in range(f.size)
     ]
-    damping = config.damping > 0.0
+    damping = config.damping > 0.0 or config.model.part.dashpots is not None
     return BondPlan(
         config.model.part,
         config.kinematics.part,
@@ -154,8 +154,17 @@ def _of_each_bond(scene: Scene, function: Callable[..., Any], form: Form) -> Any
 
 
 def damping_coefficients(scene: Scene) -> NDArray[np.float64]:
-    """Return the dashpots 2 ζ √(k m*) of every bond, (m, 4): stretch, shear, twist, bending."""
+    """Return the dashpots of every bond, (m, 4): stretch, shear, twist, bending.
+
+    Those of its model, and 2 ζ √(k m*) where the scene damps its bonds.
+    """
     assert scene.config.bonds is not None
+    own = scene.config.bonds.model.part.dashpots
+    of_scene = _damping_of_scene(scene, scene.config.bonds.damping)
+    return of_scene if own is None else of_scene + np.column_stack(_of_each_bond(scene, own, DASHPOTS))
+
+
+def _damping_of_scene(scene: Scene, zeta: float) -> NDArray[np.float64]:
     i, j = scene.ends.T
     inertia = 0.4 * scene.mass * scene.radius**2
     reduced_mass = scene.mass[i] * scene.mass[j] / (scene.mass[i] + scene.mass[j])
@@ -167,7 +176,7 @@ def damping_coefficients(scene: Scene) -> NDArray[np.float64]:
         (k.torsion, reduced_inertia),
         (k.bending, reduced_inertia),
     ]
-    return np.column_stack([2.0 * scene.config.bonds.damping * np.sqrt(a * b) for a, b in pairs])
+    return np.column_stack([2.0 * zeta * np.sqrt(a * b) for a, b in pairs])
 
 
 def wall_shapes(scene: Scene) -> list[tuple[Any, Any]]:

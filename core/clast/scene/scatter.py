@@ -20,7 +20,7 @@ from clast.config.scene import SceneConfig
 from clast.engine.records import columns, from_columns
 from clast.maths.counter_random import uniform
 from clast.maths.distributions import lognormal, weibull
-from clast.parts.bond_model import BondGeometry, Stiffness
+from clast.parts.bond_model import BondGeometry, Dashpots, Stiffness
 from clast.parts.params import Params
 
 Floats = NDArray[np.float64]
@@ -99,10 +99,15 @@ class Form(NamedTuple):
     record: Callable[[Floats], Any]
 
 
-STIFFNESS = Form(
-    lambda answer, count: np.column_stack([np.broadcast_to(each, count) for each in answer]),
-    lambda table: Stiffness(*table.T),
-)
+def form_of_columns(record: Callable[..., Any]) -> Form:
+    """Return the form of a record of plain arrays, one entry a bond."""
+    return Form(
+        lambda answer, count: np.column_stack([np.broadcast_to(each, count) for each in answer]),
+        lambda table: record(*table.T),
+    )
+
+
+STIFFNESS, DASHPOTS = form_of_columns(Stiffness), form_of_columns(Dashpots)
 
 
 def form_of_constants(record: type) -> Form:

@@ -50,7 +50,7 @@ class Constants(NamedTuple):
     compression_sign: float
 
 
-def constants(params: Elastic, bond: BondGeometry) -> Constants:
+def constants(params: BrittleBond, bond: BondGeometry) -> Constants:
     """Compute the constants of all bonds."""
     E, J = params.young_modulus, 2.0 * bond.I
     G = E / (2.0 * (1.0 + params.poisson_ratio))
@@ -69,7 +69,7 @@ def constants(params: Elastic, bond: BondGeometry) -> Constants:
     )
 
 
-def stiffness(params: Elastic, bond: BondGeometry) -> Stiffness:
+def stiffness(params: BrittleBond, bond: BondGeometry) -> Stiffness:
     """Return EA/L0, GA/L0, GJ/L0, EI/L0 of all bonds."""
     return beam_stiffness(params.young_modulus, params.poisson_ratio, bond)
 
@@ -106,21 +106,21 @@ def energy(strain: Strain, c: Constants, state: None) -> float:
     return beam_energy(strain, load(strain, c, state))
 
 
+MODEL = BondModel(
+    summary="Model 1: linear elastic, breaks at a normal or shear strength",
+    Params=Elastic,
+    Constants=Constants,
+    constants=constants,
+    stiffness=stiffness,
+    load=load,
+    failure=failure,
+    mode=mode,
+    energy=energy,
+    modes=MODES,
+)
+
+
 @hookimpl
 def clast_register(registry: Registry) -> None:
     """Offer Model 1."""
-    registry.bond_model(
-        "elastic",
-        BondModel(
-            summary="Model 1: linear elastic, breaks at a normal or shear strength",
-            Params=Elastic,
-            Constants=Constants,
-            constants=constants,
-            stiffness=stiffness,
-            load=load,
-            failure=failure,
-            mode=mode,
-            energy=energy,
-            modes=MODES,
-        ),
-    )
+    registry.bond_model("elastic", MODEL)

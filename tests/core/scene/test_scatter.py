@@ -25,7 +25,15 @@ from clast.parts.params import Params
 from clast.plugins.discovery import discover
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint, bond_constants, bond_stiffness
-from clast.scene.scatter import STIFFNESS, bond_of, draw_factors, form_of_constants, multiplied, of_each_bond
+from clast.scene.scatter import (
+    DASHPOTS,
+    STIFFNESS,
+    bond_of,
+    draw_factors,
+    form_of_constants,
+    multiplied,
+    of_each_bond,
+)
 from clast.scene.start import check_start
 from clast.simulation import Simulation
 
@@ -64,7 +72,9 @@ def test_every_parameter_of_every_model_scatters_as_if_each_bond_were_computed_a
     for parameter in can_scatter(params):
         scatter = [Scatter(parameters=(parameter,), distribution="lognormal", deviation=1e-3)]
         factors = (1.0 - np.abs(draw_factors(scatter, COUNT)[0] - 1.0),)  # some numbers may not grow
-        for function, form in ((model.constants, form_of_constants(model.Constants)), (model.stiffness, STIFFNESS)):
+        asked = [(model.constants, form_of_constants(model.Constants)), (model.stiffness, STIFFNESS)]
+        asked += [(model.dashpots, DASHPOTS)] if model.dashpots else []
+        for function, form in asked:
             found = of_each_bond(function, form, params, scatter, factors, geometry)
             expected = one_by_one(function, form, params, scatter, factors, geometry)
             np.testing.assert_allclose(form.rows(found, COUNT), expected, rtol=1e-14)
