@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+import numpy as np
 from hypothesis import strategies as st
 
 from clast.engine.records import build, width
@@ -16,6 +17,8 @@ from clast.testing.draws import numbers, vectors
 
 L0, R = 0.26e-3, 0.125e-3
 GEOMETRY = BondGeometry(L0, R, math.pi * R**2, math.pi * R**4 / 4.0)
+SIZES = np.array([L0] * 4 + [L0 / R] * 4)
+"""By what a strain of 1 moves each of the eight measures, in m and rad."""
 KEY = RandomKey(1, 17)
 MOST_EVENTS = 10_000
 

@@ -44,7 +44,7 @@ class Kelvin(BrittleBond):
     """
 
     retardation_time: Annotated[
-        Time, Field(gt=0, examples=["1 us"], description="tau: time in which 63 % of the elastic strain is reached")
+        Time, Field(gt=0, examples=["0.1 us"], description="tau: time in which 63 % of the elastic strain is reached")
     ]
 
 

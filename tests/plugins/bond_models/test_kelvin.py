@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,14 @@ from clast import load
 from clast.config.scene import SceneConfig
 from clast.engine.time_step import limits
 from clast.forecast import forecast
+from clast.parts.bond_model import Dashpots
+from clast.parts.examples import example
 from clast.plugins.discovery import discover
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients
+from clast.testing.bond_model import claims
+from clast.testing.claim import try_claims
+from clast_plugins.bond_models import elastic
 from tests.scenes import CRUSH, write
 
 MODEL = {"type": "kelvin", "young_modulus": "420 MPa", "poisson_ratio": 0.2, "normal_strength": "2 MPa"}
@@ -36,6 +42,14 @@ def test_every_spring_has_a_dashpot_of_the_same_time_and_damping_of_the_scene_is
 def test_models_without_dashpots_have_none_compiled(tmp_path: Path) -> None:
     assert discover().get("bond_model", "elastic").part.dashpots is None
     assert not blueprint(build_scene(load(write(tmp_path, CRUSH)))).bonds.damping
+
+
+@pytest.mark.parametrize(("viscosity", "kept"), [(0.0, True), (-1.0, False), (float("nan"), False)])
+def test_dashpots_that_push_break_the_contract_of_bond_models(viscosity: float, kept: bool) -> None:
+    model = replace(elastic.MODEL, dashpots=lambda params, bond: Dashpots(*[np.array([viscosity])] * 4))
+    (claim,) = (each for each in claims(model, example(elastic.Elastic)) if "dashpots" in each.says)
+    (outcome,) = try_claims([claim])
+    assert outcome.passed == kept
 
 
 def test_the_step_falls_with_the_time_of_retardation_and_check_foresees_it(tmp_path: Path) -> None:
