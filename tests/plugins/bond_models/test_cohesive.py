@@ -14,6 +14,7 @@ from clast import load
 from clast.errors import ConfigError
 from clast.forecast import forecast
 from clast.parts.bond_model import Strain
+from clast.scene.build import build_scene
 from tests.support.bonds import GEOMETRY, L0, WRITTEN, E, G, R, bent, follow, law, respond, scaled, strains, stretch
 from tests.support.strategies import numbers
 
@@ -98,3 +99,12 @@ def test_bent_alone_a_bond_is_damaged_from_where_its_outermost_fibre_has_twice_t
 def test_bonds_that_would_snap_back_are_refused_before_anything_runs(key: str, sentence: str) -> None:
     with pytest.raises(ConfigError, match=sentence):
         forecast(load(SCENE).changed({f"bonds.model.{key}": "1e-6 J/m2"}))
+
+
+def test_a_bond_whose_parameters_scatter_into_snapping_back_is_the_one_that_is_named() -> None:
+    scatter = {"parameters": ["fracture_energy"], "distribution": "weibull", "modulus": 0.5}
+    scene = load(SCENE).changed({"bonds.scatter": [scatter]})
+    built = build_scene(scene)
+    weakest = int(np.argmin(built.factors[0] / built.length))
+    with pytest.raises(ConfigError, match=rf"bonds\.model: bond {weakest}, "):
+        forecast(scene)
