@@ -12,11 +12,13 @@ from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
 
+from clast.plugins.discovery import discover
 from sitebuild import DOCS, ROOT
 from sitebuild.api import api_pages
 from sitebuild.decisions import decisions_page
 from sitebuild.links import SCENES, linked_outside, place, relink
 from sitebuild.offline import WORKER, keep_offline
+from sitebuild.parts import part_files
 from sitebuild.scenes import scene_files, scenes_page
 
 _ROLE = re.compile(r":(?:class|func|meth|mod|attr):(?=<code>)")
@@ -73,6 +75,7 @@ def generated() -> Iterator[tuple[str, str | bytes]]:
     yield SCENES, scenes_page()
     yield WORKER, (DOCS / "sitebuild" / "worker.js").read_text(encoding="utf-8")
     yield "decisions/index.md", decisions_page()
+    yield from part_files(discover())
     yield from ((f"api/{name}.md", text) for name, text in api_pages())
 
 

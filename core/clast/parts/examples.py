@@ -13,6 +13,11 @@ from clast.parts.params import Params
 P = TypeVar("P", bound=Params)
 
 
+def stated(model: type[Params]) -> dict[str, Any]:
+    """Return the examples that fields state, as a user writes them, by the name of their field."""
+    return {name: field.examples[0] for name, field in model.model_fields.items() if field.examples}
+
+
 def example(model: type[P], changes: Mapping[str, Any] | None = None) -> P:
     """Return parameters made of ``changes``, of the examples that fields state, and of defaults, in this order.
 
@@ -36,8 +41,7 @@ def example(model: type[P], changes: Mapping[str, Any] | None = None) -> P:
     >>> example(Spring).modulus, example(Spring, {"modulus": "2 GPa"}).modulus
     (100000000.0, 2000000000.0)
     """
-    stated = {name: field.examples[0] for name, field in model.model_fields.items() if field.examples}
-    given = stated | dict(changes or {})
+    given = stated(model) | dict(changes or {})
     missing = [name for name, field in model.model_fields.items() if field.is_required() and name not in given]
     if missing:
         first = missing[0]
