@@ -11,17 +11,19 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from clast.config.scene import load
+    from clast.exporting import export_run
     from clast.plugins.hookspec import hookimpl
     from clast.results.run import open_run
     from clast.session import run_scene
     from clast.simulation import Simulation
 
-__all__ = ["Simulation", "__version__", "hookimpl", "load", "open_run", "run_scene"]
+__all__ = ["Simulation", "__version__", "export_run", "hookimpl", "load", "open_run", "run_scene"]
 
 __version__ = "0.1.0"
 
 _HOMES = {
     "Simulation": "clast.simulation",
+    "export_run": "clast.exporting",
     "hookimpl": "clast.plugins.hookspec",
     "load": "clast.config.scene",
     "open_run": "clast.results.run",

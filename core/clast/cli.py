@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from clast.cli_export import export
 from clast.cli_plugins import plugin_option, plugins
 from clast.cli_studies import STUDY_COMMANDS, change_option
 from clast.errors import ClastError
@@ -239,5 +240,5 @@ def bench(
             ctx.exit(1)
 
 
-for _command in (*STUDY_COMMANDS, plugins):
+for _command in (export, *STUDY_COMMANDS, plugins):
     main.add_command(_command)

@@ -153,7 +153,8 @@ def write_run(folder: Path, scene: Scene, *, reference: bool = True, complete: b
             _write_columns(file.create_group("contacts"), scene.contacts)
         _write_columns(file.create_group("cracks"), scene.cracks)
         file["cracks/mode"].attrs["modes"] = MODES
-    config = {"name": "synthetic", "reference": [REFERENCE] if reference else []}
+    materials = {"glass": {"density": 2500.0}}
+    config = {"name": "synthetic", "materials": materials, "reference": [REFERENCE] if reference else []}
     (folder / "config.yaml").write_text(yaml.safe_dump(config), encoding="utf-8")
     (folder / "summary.json").write_text('{"steps": 11000}', encoding="utf-8")
     return folder

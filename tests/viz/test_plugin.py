@@ -24,7 +24,7 @@ class Registry:
         self.files[name] = part.file
 
 
-def test_six_writers_are_registered() -> None:
+def test_all_writers_are_registered() -> None:
     registry: Any = Registry()
     clast_viz.clast_register(registry)
     assert registry.files == {
@@ -34,6 +34,8 @@ def test_six_writers_are_registered() -> None:
         "energy": "energy.png",
         "picture": "picture.png",
         "grains": "grains",
+        "csv": "csv",
+        "lammps": "lammps",
     }
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from clast import hookimpl
-from clast.parts.writer import Writer
-from clast_viz import energy, figure, grain_tables, picture, recording, vtk
+from clast.parts.writer import Export, Writer
+from clast_viz import csv_tables, energy, figure, grain_tables, lammps, picture, recording, vtk
 
 if TYPE_CHECKING:
     from clast.plugins.registry import Registry
@@ -27,6 +27,7 @@ def clast_register(registry: Registry) -> None:
             Params=recording.RecordingParams,
             file=recording.FILE,
             write=recording.write_recording,
+            export=Export("rrd", {"bonds": "all", "contacts": "all", "frames": "all"}),
         ),
     )
     registry.writer(
@@ -36,6 +37,7 @@ def clast_register(registry: Registry) -> None:
             Params=vtk.VtkParams,
             file=vtk.FILE,
             write=vtk.write_vtk,
+            export=Export("vtkhdf", {"bonds": "all", "frames": "all"}),
         ),
     )
     registry.writer(
@@ -74,5 +76,26 @@ def clast_register(registry: Registry) -> None:
             Params=grain_tables.GrainTableParams,
             file=grain_tables.FILE,
             write=grain_tables.write_grain_tables,
+        ),
+    )
+    registry.writer(
+        "csv",
+        Writer(
+            summary="a folder of tables: particles, bonds and contacts of every frame, curves, cracks",
+            Params=csv_tables.CsvParams,
+            file=csv_tables.FILE,
+            write=csv_tables.write_csv,
+            needs_frames=False,
+            export=Export("csv"),
+        ),
+    )
+    registry.writer(
+        "lammps",
+        Writer(
+            summary="for LAMMPS and OVITO: a dump of all frames and a data file with the bonds of the last one",
+            Params=lammps.LammpsParams,
+            file=lammps.FILE,
+            write=lammps.write_lammps,
+            export=Export("lammps"),
         ),
     )

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from clast.errors import RunError
-from clast.results.run import Reference, Run
+from clast.results.reference import Reference
+from clast.results.run import Run
 from clast.results.whole_file import whole_file
 from clast_viz.curves import has_compression
 from clast_viz.figure import STYLE, draw_references, finish_axes, new_axes, save

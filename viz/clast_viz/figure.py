@@ -10,7 +10,8 @@ from pydantic import Field
 
 from clast.parts.params import Params
 from clast.parts.writer import Written
-from clast.results.run import Reference, Run
+from clast.results.reference import Reference
+from clast.results.run import Run
 from clast_viz.curves import has_compression, peak
 
 FILE = "stress_strain.png"

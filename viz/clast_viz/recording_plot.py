@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Reference, Run
+from clast.results.reference import Reference
+from clast.results.run import Run
 from clast_viz.curves import has_compression
 
 WIDTH, HEIGHT = 160.0, 100.0

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from clast.parts.params import Params
 
@@ -30,6 +31,21 @@ class Written:
         return self.skipped.startswith(NOT_WRITTEN)
 
 
+class Export(NamedTuple):
+    """What ``clast export`` makes with a writer.
+
+    Attributes
+    ----------
+    format : str
+        The name that ``--to`` takes.
+    everything : mapping
+        Parameters with which the writer leaves nothing out, as a user writes them.
+    """
+
+    format: str
+    everything: Mapping[str, Any] = MappingProxyType({})
+
+
 @dataclass(frozen=True)
 class Writer:
     """The part a plugin registers with ``registry.writer(name, Writer(...))``.
@@ -51,6 +67,8 @@ class Writer:
     write : (run, params, path) -> Written
         Reads the run, writes ``path``. The path lies in an empty folder: whatever a writer leaves there is moved to the
         run folder when it ends, and thrown away when it fails.
+    export : Export, optional
+        The format that ``clast export`` offers with this writer.
     """
 
     summary: str
@@ -58,3 +76,4 @@ class Writer:
     file: str
     write: Callable[[Run, Any, Path], Written]
     needs_frames: bool = True
+    export: Export | None = None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -23,6 +25,7 @@ from clast.results.reading import (
     strings,
     telling_damage,
 )
+from clast.results.reference import read_references
 
 
 class Frame(NamedTuple):
@@ -69,27 +72,6 @@ class WallMesh:
     index: int
 
 
-@dataclass(frozen=True)
-class Reference:
-    """A measured crushing point to compare with, as given under ``reference`` in the config.
-
-    Attributes
-    ----------
-    label : str
-        Where the point comes from.
-    strain, stress : float
-        The point; stress in Pa.
-    strain_deviation, stress_deviation : float
-        Its scatter, one standard deviation; 0 where not given.
-    """
-
-    label: str
-    strain: float
-    stress: float
-    strain_deviation: float = 0.0
-    stress_deviation: float = 0.0
-
-
 class Run:
     """Results of one run, read from its folder; frames are read from disk one at a time.
 
@@ -133,6 +115,8 @@ class Run:
         Drawable walls, in the order of ``Frame.wall_displacement``.
     n_frames : int
         Number of recorded frames.
+    frame_numbers : (n_frames,) int64
+        The number that each frame has in the file; others than 0, 1, … after :meth:`only`.
     summary, config : dict
         Contents of ``summary.json`` and of the resolved ``config.yaml``; empty where the file is missing.
     reference : list of Reference
@@ -167,9 +151,10 @@ class Run:
         self.crack_modes = strings(file["cracks/mode"].attrs["modes"])
         self._frames = file.get("frames", {})
         self.n_frames = min((len(dataset) for dataset in self._frames.values()), default=0)
+        self.frame_numbers = np.arange(self.n_frames)
         self.summary = read_json(self.folder / "summary.json")
         self.config = read_yaml(self.folder / CONFIG_FILE)
-        self.reference = _references(self.folder / CONFIG_FILE, self.config)
+        self.reference = read_references(self.folder / CONFIG_FILE, self.config)
 
     def _read_scene(self, file: Any) -> None:
         self.radius: NDArray[np.float64] = file["particles/radius"][:]
@@ -185,6 +170,13 @@ class Run:
         }
         self.walls = dict(sorted(walls.items(), key=lambda item: item[1].index))
 
+    def only(self, frames: Sequence[int]) -> Run:
+        """Return the same run with these of its frames, numbered from 0; both read one open file."""
+        twin = copy(self)
+        twin.frame_numbers = self.frame_numbers[list(frames)]
+        twin.n_frames = len(twin.frame_numbers)
+        return twin
+
     def frame(self, k: int) -> Frame:
         """Read frame ``k``; negative numbers count from the end.
 
@@ -197,7 +189,7 @@ class Run:
         """
         self._refuse_missing(k)
         with telling_damage(self.folder / RESULTS_FILE, f"frame {k}: "):
-            return self._read_frame(k % self.n_frames)
+            return self._read_frame(int(self.frame_numbers[k]))
 
     def _refuse_missing(self, k: int) -> None:
         if not -self.n_frames <= k < self.n_frames:
@@ -232,7 +224,7 @@ class Run:
         if ENDS not in self._frames:
             return None
         with telling_damage(self.folder / RESULTS_FILE, f"contacts of frame {k}: "):
-            return self._read_contacts(k % self.n_frames)
+            return self._read_contacts(int(self.frame_numbers[k]))
 
     def _read_contacts(self, k: int) -> Contacts:
         ends = self._frames[ENDS]
@@ -247,7 +239,7 @@ class Run:
         (F,) float64
         """
         with telling_damage(self.folder / RESULTS_FILE, f"{name} of the frames: "):
-            return np.asarray(self._frames[name][: self.n_frames], dtype=np.float64)
+            return np.asarray(self._frames[name][:][self.frame_numbers], dtype=np.float64)
 
     def close(self) -> None:
         """Close the file; frames cannot be read any more, everything else can."""
@@ -271,21 +263,3 @@ def open_run(folder: str | Path) -> Run:
         If the folder holds no results, or they are unreadable, or a simulation is still writing them.
     """
     return Run(Path(folder))
-
-
-def _references(path: Path, config: dict[str, Any]) -> list[Reference]:
-    try:
-        return [_reference(entry) for entry in config.get("reference") or []]
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise RunError(f"{path}: reference: cannot be read ({error!r})") from error
-
-
-def _reference(entry: dict[str, Any]) -> Reference:
-    # float() because YAML loads numbers such as 4e6 as text
-    return Reference(
-        label=str(entry.get("label", "reference")),
-        strain=float(entry["strain"]),
-        stress=float(entry["stress"]),
-        strain_deviation=float(entry.get("strain_deviation") or 0.0),
-        stress_deviation=float(entry.get("stress_deviation") or 0.0),
-    )

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from clast.errors import RunError
-from clast.results.run import Reference, open_run
+from clast.results.reference import Reference
+from clast.results.run import open_run
 from tests.viz.synthetic_run import FRAMES, LEAVES_AT, small_grain, two_spheres, write_run
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from clast.results.curves import energies
-from clast.results.run import Reference, Run
+from clast.results.reference import Reference
+from clast.results.run import Run
 from clast_viz.compare import COLOURS, Line, comparison_figure
 from clast_viz.curves import has_compression, time_axis
 from clast_viz.energy import energy_axis, energy_figure

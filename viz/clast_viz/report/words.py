@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from clast.results.in_words import summary_rows
-from clast.results.run import Reference, Run
+from clast.results.reference import Reference
+from clast.results.run import Run
 from clast_viz.curves import has_compression, peak
 from clast_viz.report.opened import Opened
 
