@@ -10,10 +10,11 @@ from clast.config.describe import parameters
 from clast.engine.records import fields
 from clast.parts.examples import example
 from clast.plugins.discovery import discover
+from clast.testing.bonds import bond, stretched
 from clast.verification.closed_forms.hertz import HertzImpact
 from sitebuild import DOCS
 from sitebuild.curves import drawing
-from sitebuild.curves.bond_model import loading_cycle, sheared, stretched
+from sitebuild.curves.bond_model import loading_cycle, sheared
 from sitebuild.curves.contact_law import GLASS, MASS, SPEED, Law, R, impact, sideways
 from sitebuild.curves.integrator import error
 from sitebuild.docstring import sections
@@ -90,10 +91,10 @@ def test_a_picture_is_the_same_whenever_it_is_drawn():
 def test_a_drawn_bond_breaks_at_its_strength_and_one_without_a_limit_holds():
     entry = REGISTRY.get("bond_model", "elastic")
     params = example(entry.part.Params)
-    pulled = loading_cycle(entry.part, params, stretched, 0.1)
+    pulled = loading_cycle(bond(entry.part, params), stretched, 0.1)
     assert pulled.broken
     assert pulled.stress[-1] == pytest.approx(params.normal_strength, rel=0.01)
-    slid = loading_cycle(entry.part, params, sheared, 0.02)
+    slid = loading_cycle(bond(entry.part, params), sheared, 0.02)
     assert not slid.broken
     assert slid.stress.max() == pytest.approx(0.0204 * params.young_modulus / 2.4, rel=1e-9)
 

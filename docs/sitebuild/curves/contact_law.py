@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from clast.engine.records import build, width
 from clast.maths.vec3 import ZERO, Vec, dot
-from clast.parts.contact_law import ContactLaw, Features, MaterialPair, Touch
+from clast.parts.contact_law import ContactLaw, MaterialPair, Touch
 from clast.parts.params import Params
+from clast.testing.contacts import contact
 
 Floats = NDArray[np.float64]
 GLASS = MaterialPair(70e9, 0.22, 70e9, 0.22, restitution=0.7, sliding_friction=0.3, rolling_friction=0.01)
@@ -45,22 +45,21 @@ class Law:
     """A contact law between two glass spheres, with everything that materials can ask for."""
 
     def __init__(self, law: ContactLaw, params: Params, pair: MaterialPair = GLASS) -> None:
-        self.law = law
-        self.constants: Any = law.constants(params, pair)
-        self.choices: Any = law.choices(params, Features(damping=True, sliding=True, rolling=True))
-        self.history: Any = None if law.History is None else build(law.History, [0.0] * width(law.History))
+        self.contact = contact(law, params, pair=pair)
+        self.history = self.contact.fresh
 
     def force(self, overlap: float, velocity: Vec, dt: float) -> Vec:
         """Return the force on j in N after a step in which the bodies moved on by ``velocity * dt``."""
         moved = (velocity[0] * dt, velocity[1] * dt, velocity[2] * dt)
         touch = TOUCH._replace(overlap=overlap, velocity=velocity, moved=moved)
-        load, self.history = self.law.load(touch, self.constants, self.history, dt, self.choices)
+        load, self.history = self.contact.answer(touch, self.history, dt)
         force: Vec = load.force
         return force
 
     def step(self, overlap: float) -> float:
         """Return a time in which the contact hardly changes in s."""
-        stiffness = max(float(self.law.stiffness(self.constants, TOUCH.radius, max(overlap, 1e-6 * R))), 1e-30)
+        law, constants, _ = self.contact
+        stiffness = max(float(law.stiffness(constants, TOUCH.radius, max(overlap, 1e-6 * R))), 1e-30)
         return min(1.0 / math.sqrt(stiffness * TOUCH.inverse_mass), 1e-3 * R / SPEED) / STEPS_PER_RADIAN
 
 
