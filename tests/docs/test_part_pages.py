@@ -1,7 +1,9 @@
 """Every part has a page that says what it computes and takes, and pictures that agree with closed forms."""
 
 import re
+from dataclasses import replace
 from math import log10
+from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -9,6 +11,7 @@ import yaml
 from clast.config.describe import parameters
 from clast.engine.records import fields
 from clast.parts.examples import example
+from clast.parts.params import Params
 from clast.plugins.discovery import discover
 from clast.testing.bonds import bond, stretched
 from clast.verification.closed_forms.hertz import HertzImpact
@@ -23,6 +26,12 @@ from sitebuild.parts import index_page, page_uri
 
 REGISTRY = discover()
 THIRD_PARTY = discover([DOCS / "examples" / "my_law.py"])
+
+
+class Bare(Params):
+    """Parameters that state no example of what they need."""
+
+    radius: float
 
 
 def named(entry):
@@ -70,7 +79,7 @@ def test_every_part_that_is_registered_is_listed_with_a_link_to_its_page():
 def test_a_picture_stands_on_the_page_or_a_sentence_in_its_place():
     entry = REGISTRY.get("wall", "plane")
     assert "![Response of the part](plane.svg)\n\nA plane." in part_page(entry, Picture("plane.svg", "A plane."))
-    drawn = drawing(THIRD_PARTY.get("contact_law", "linear"))
+    drawn = drawing(replace(entry, part=SimpleNamespace(summary="a wall", Params=Bare)))
     assert drawn.svg == b""
     assert "state no examples" in part_page(entry, Picture("", drawn.caption))
 
@@ -121,7 +130,7 @@ def test_what_is_drawn_sideways_ends_at_coulomb_s_limit():
 
 
 @pytest.mark.parametrize("name", REGISTRY.names("integrator"))
-def test_drawn_errors_fall_with_the_order_of_the_integrator(name):
+def test_drawn_errors_fall_at_least_with_the_order_of_the_integrator(name):
     scheme = REGISTRY.get("integrator", name).part
     slope = log10(error(scheme, 100, 0.0) / error(scheme, 1000, 0.0))
-    assert slope == pytest.approx(scheme.order, abs=0.05)
+    assert slope > scheme.order - 0.05

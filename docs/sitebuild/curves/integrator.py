@@ -21,7 +21,10 @@ def draw(scheme: Integrator, params: Params, figure: Figure) -> str:
         axes.loglog([DURATION / count for count in STEPS], told, style, label=f"damping ratio {zeta:g}")
     axes.set(xlabel="ω Δt", ylabel="error of the position / amplitude")
     axes.legend()
-    return f"Error of an oscillator after {DURATION:g} radians, started at its amplitude, over the step."
+    return (
+        f"Error of an oscillator after {DURATION:g} radians, started at its amplitude with the velocity of the instant "
+        "that the scheme keeps velocities at, over the step."
+    )
 
 
 def error(scheme: Integrator, count: int, zeta: float) -> float:
