@@ -99,7 +99,7 @@ def impact(law: Law) -> Impact:
 
 def sideways(law: Law, overlap: float) -> tuple[Floats, Floats]:
     """Push j across at one overlap, forth, back and forth again; return displacements in m and what resists in N."""
-    reach = overlap
+    reach = 3.0 * overlap
     way = np.concatenate([np.linspace(0, reach), np.linspace(reach, -reach, 100), np.linspace(-reach, reach, 100)])
     slow = 1.0
     resisting = [-law.force(overlap, (step / slow, 0.0, 0.0), slow)[0] for step in np.diff(way, prepend=0.0)]
