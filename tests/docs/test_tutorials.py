@@ -74,6 +74,19 @@ def test_the_contact_law_of_the_tutorial_gives_back_what_it_says(desk, capsys):
     assert "takes 75% of the work" in capsys.readouterr().out
 
 
+def test_the_bond_model_of_the_tutorial_pulls_along_its_parabola_and_comes_back_straight(desk):
+    law = follow("write-a-bond-model")
+    told = law["pulled"]
+    strain, held = told["axial_strain"], told["intact"] > 0
+    assert strain[held].max() == pytest.approx(0.004, rel=0.03)
+    assert not held[-1]
+    parabola = 100e6 * (1 - strain / 0.004) * strain
+    assert told["normal_stress"][held] == pytest.approx(parabola[held], rel=1e-9)
+    assert law["stress"].max() == pytest.approx(100e6 * 0.004 / 4, rel=1e-9)
+    assert law["stress"][45] == pytest.approx(law["stress"][30] * law["path"][45] / law["path"][30], rel=1e-9)
+    assert (desk / "weakening.png").stat().st_size > 1000
+
+
 def test_the_tutorial_on_fig_9_prepares_every_run_and_quotes_the_study(desk):
     follow("reproduce-fig-9")
     assert len(list((desk / "runs" / "fig09_prepared").rglob("*.yaml"))) >= 24
