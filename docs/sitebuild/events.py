@@ -24,6 +24,8 @@ from sitebuild.scenes import scene_files, scenes_page
 _ROLE = re.compile(r":(?:class|func|meth|mod|attr):(?=<code>)")
 _FROM_ROOT = ("README.md", "CHANGELOG.md", "LICENSE")
 
+STYLE = "assets/stylesheets/clast.css"
+
 made: dict[str, str | bytes] = {}
 """Pages and pictures by their place in the site, made anew for each build."""
 
@@ -53,8 +55,8 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
 
 
 def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:
-    """Take the roles out of docstrings, which only Sphinx knows."""
-    return _ROLE.sub("", html)
+    """Take out of docstrings what only Sphinx knows: roles, and the second colon before a block of code."""
+    return _ROLE.sub("", html).replace("::</p>", ":</p>")
 
 
 def on_post_build(config: MkDocsConfig) -> None:
@@ -74,6 +76,7 @@ def generated() -> Iterator[tuple[str, str | bytes]]:
     """Yield place and content of every page and picture that is made while the site is built."""
     yield SCENES, scenes_page()
     yield WORKER, (DOCS / "sitebuild" / "worker.js").read_text(encoding="utf-8")
+    yield STYLE, (DOCS / "sitebuild" / "style.css").read_text(encoding="utf-8")
     yield "decisions/index.md", decisions_page()
     yield from part_files(discover())
     yield from ((f"api/{name}.md", text) for name, text in api_pages())
