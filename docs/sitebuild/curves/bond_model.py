@@ -40,7 +40,10 @@ def draw(model: BondModel, params: Params, figure: Figure) -> str:
     slid = loading_cycle(bond(model, params), sheared, FARTHER * float(pulled.strain.max()))
     _curve(left, pulled, "axial strain [%]", "normal stress [MPa]")
     _curve(right, slid, "shear strain [%]", "shear stress [MPa]")
-    return "A bond pulled, let go and pulled again (left), and the same across the bond (right); a cross: it breaks."
+    slowly = "" if model.dashpots is None else " So slowly that its dashpots add nothing."
+    return (
+        f"A bond pulled, let go, pulled again (left), and the same across the bond (right); a cross: it breaks.{slowly}"
+    )
 
 
 def _curve(axes: Axes, told: Response, strain: str, stress: str) -> None:
