@@ -115,4 +115,4 @@ def clast_register(registry):
     registry.bond_model("softening", BondModel("softens", Softening, BondConstants, State=BondState, **bond))
     contact = {"constants": contact_constants, "choices": choices, "load": contact_load}
     contact |= {"energy": contact_energy, "stiffness": contact_stiffness}
-    registry.contact_law("linear", ContactLaw("spring and dashpot", Linear, ContactConstants, **contact))
+    registry.contact_law("spring_dashpot", ContactLaw("spring and dashpot", Linear, ContactConstants, **contact))

@@ -49,8 +49,8 @@ class Ledger(NamedTuple):
     contact_viscous, sliding, rolling, bond_viscous : float
         Heat of dashpots in contacts, of sliding and of rolling friction, of dashpots in bonds.
     contact_stiffening : float
-        What tangential springs lose as contacts become softer, less what they gain as contacts become stiffer:
-        Mindlin's tangential force is not the gradient of an energy.
+        What tangential springs lose as contacts become softer and come apart, less what they gain as contacts become
+        stiffer: Mindlin's tangential force is not the gradient of an energy.
     plastic, drops, broken : float
         What bonds lost by flow, plastic or by damage, what their stress drops released, what breaking bonds still held.
     left : float

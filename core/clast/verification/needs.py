@@ -7,13 +7,15 @@ from math import isclose
 
 import numpy as np
 
+from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.parts.bond_model import BondGeometry
 from clast.parts.contact_law import MaterialPair
 from clast.verification.closed_forms.beam import Beam
 
 
-def _pair(scene: SceneConfig) -> MaterialPair:
+def pair_of(scene: SceneConfig) -> MaterialPair:
+    """Return the first material of a scene in contact with itself."""
     material = next(iter(scene.materials.values()))
     E, nu = material.young_modulus, material.poisson_ratio
     return MaterialPair(E, nu, E, nu, restitution=0.5, sliding_friction=0.3, rolling_friction=0.0)
@@ -23,11 +25,36 @@ def hertzian(scene: SceneConfig) -> str | None:
     """Ask for a contact law whose stiffness, as it declares it, grows with the root of the overlap."""
     assert scene.contacts is not None
     law = scene.contacts.law
-    constants = law.part.constants(law.params, _pair(scene))
+    constants = law.part.constants(law.params, pair_of(scene))
     thin, thick = (law.part.stiffness(constants, 1e-3, overlap) for overlap in (1e-6, 4e-6))
     if thin > 0.0 and isclose(thick / thin, 2.0, rel_tol=1e-3):
         return None
     return f"the stiffness of {law.name!r} does not grow with the root of the overlap, as Hertz's does"
+
+
+def linear(scene: SceneConfig) -> str | None:
+    """Ask for a contact law whose stiffness, as it declares it, is the same at every overlap."""
+    assert scene.contacts is not None
+    law = scene.contacts.law
+    constants = law.part.constants(law.params, pair_of(scene))
+    thin, thick = (law.part.stiffness(constants, 1e-3, overlap) for overlap in (1e-6, 4e-6))
+    return None if thin == thick else f"the stiffness of {law.name!r} changes with the overlap"
+
+
+def law_parameters(*names: str) -> Callable[[SceneConfig], str | None]:
+    """Ask for a contact law that has certain parameters: those that the closed form is made of."""
+
+    def need(scene: SceneConfig) -> str | None:
+        assert scene.contacts is not None
+        return lacking(scene.contacts.law, names)
+
+    return need
+
+
+def lacking(chosen: Chosen, names: tuple[str, ...]) -> str | None:
+    """Return which of some parameters a part does not have; None where it has all."""
+    missing = [name for name in names if getattr(chosen.params, name, None) is None]
+    return f"{chosen.name!r} has no {' and no '.join(missing)}" if missing else None
 
 
 def sticks(scene: SceneConfig) -> str | None:
@@ -70,9 +97,7 @@ def bond_parameters(*names: str) -> Callable[[SceneConfig], str | None]:
 
     def need(scene: SceneConfig) -> str | None:
         assert scene.bonds is not None
-        model = scene.bonds.model
-        missing = [name for name in names if getattr(model.params, name, None) is None]
-        return f"{model.name!r} has no {' and no '.join(missing)}" if missing else None
+        return lacking(scene.bonds.model, names)
 
     return need
 

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from clast.maths.vec3 import add, cross, dot, norm, scale, sub
 from clast.parts.contact_law import ContactLoad, Features
-from clast_plugins.contact_laws.hertz_mindlin import BRAKING_STEPS, History, energy, stiffness
+from clast_plugins.contact_laws.hertz_mindlin import History, energy, stiffness
+from clast_plugins.contact_laws.rolling import BRAKING_STEPS
 from tests.support.contacts import (
     DT,
     GLASS,

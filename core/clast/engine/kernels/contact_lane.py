@@ -56,8 +56,10 @@ from .slots import (
     SPIN,
     VELOCITY_FORCES,
     carry_history,
+    contact_energy,
     contact_load,
     contact_losses,
+    load_history,
     read_contact_constants,
     read_history,
     write_history,
@@ -169,6 +171,18 @@ def read_drag(scratch: Floats, lane: int) -> Drag:
 def kept_drag(histories: Floats, k: int) -> Drag:
     """Return the drag that contact k had at the forces before."""
     return Drag(row(histories, k, 3 + HISTORY), row(histories, k, 6 + HISTORY) if ROLLS else ZERO)
+
+
+@inlined
+def energy_left(r_i: float, r_j: float, constants: Any, histories: Floats, k: int) -> float:
+    """Return the elastic energy that contact k still holds as it comes apart, in J: that of springs across it.
+
+    A tangential spring whose stiffness does not vanish with the overlap may be stretched then, and snaps.
+    """
+    radius = r_i if r_j == 0.0 else r_i * r_j / (r_i + r_j)
+    n = row(histories, k, 0)
+    parting = Touch(0.0, n, ZERO, ZERO, ZERO, radius, r_i, r_j, 1.0, 1.0, ZERO, ZERO)
+    return contact_energy(parting, constants, load_history(histories[k]), CHOICES)  # type: ignore[no-any-return]
 
 
 @inlined

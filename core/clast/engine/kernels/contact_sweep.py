@@ -7,7 +7,7 @@ from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
 from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
-from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
+from .contact_lane import DRAG_NUMBERS, contact_lane, energy_left, gather, kept_drag, radii, read_touch, scatter
 from .lanes import put, row, vector
 from .layout import (
     FIRST,
@@ -18,6 +18,7 @@ from .layout import (
     RI,
     RJ,
     ROLLING,
+    STIFFENING,
     VISCOUS,
     WOKEN,
     D,
@@ -64,13 +65,18 @@ def meet(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: 
 
 
 @inlined
-def book_parting(particles: Particles, pairs: Pairs, k: int, dt: float, book: Floats) -> None:
-    """Book what the drag of the last evaluation still takes up while pair k comes apart."""
+def book_parting(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, dt: float, book: Floats) -> None:
+    """Book what the drag of the last evaluation still takes up while pair k comes apart, and what its springs held."""
     twist, i, j = particles.twist, pairs.first[k], pairs.second[k]
     last = kept_drag(pairs.history, k)
     book[VISCOUS] += 0.5 * dt * dot(last.force, sub(row(twist, j, V), row(twist, i, V)))
     if ROLLS:
         book[ROLLING] += 0.5 * dt * dot(last.torque, sub(row(twist, j, W), row(twist, i, W)))
+    if HISTORY > 0:
+        r_i, r_j = radii(particles, i, j, numbers)
+        materials = int(particles.body[i, MATERIAL]), int(particles.body[j, MATERIAL])
+        constants = row_constants(numbers.contact_table[materials])
+        book[STIFFENING] += energy_left(r_i, r_j, constants, pairs.history, k)
 
 
 @inlined
@@ -172,7 +178,7 @@ def sweep_contacts(
                     book[WOKEN] += waking_energy(particles, pairs, k, numbers, scratch, count, dt)
         if REMEMBERS and pairs.touching[k] > touches:
             if CONTACT_LOSSES and pairs.sides[k] & FIRST:
-                book_parting(particles, pairs, k, dt, book)
+                book_parting(particles, pairs, k, numbers, dt, book)
             forget(pairs, k)
         active[count] = k
         count += touches

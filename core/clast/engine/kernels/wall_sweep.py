@@ -7,7 +7,7 @@ from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
 from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
 from clast.parts.contact_law import NO_DRAG, Touch
 
-from .contact_lane import kept_drag
+from .contact_lane import energy_left, kept_drag
 from .lanes import row
 from .layout import (
     INVERSE_INERTIA,
@@ -96,6 +96,20 @@ def push(particles: Particles, walls: Walls, k: int, w: int, force: Vec, torque:
             load[k, M + c] += torque[c] - lever * arm[c]
 
 
+@inlined
+def book_parting(
+    walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, p: int, book: Floats, dt: float
+) -> None:
+    """Book what the drag of the last evaluation still takes up while wall pair p parts, and what its springs held."""
+    w, k = pairs.wall[p], pairs.particle[p]
+    last, apart = kept_drag(pairs.history, p), sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
+    book[VISCOUS] += 0.5 * dt * dot(last.force, apart)
+    book[ROLLING] -= 0.5 * dt * dot(last.torque, row(particles.twist, k, W))
+    if HISTORY > 0:
+        constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
+        book[STIFFENING] += energy_left(particles.pose[k, RADIUS], 0.0, constants, pairs.history, p)
+
+
 @routine
 def sweep_walls(
     walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, book: Floats, dt: float
@@ -108,9 +122,7 @@ def sweep_walls(
         radius = particles.pose[k, RADIUS]
         if near.distance >= radius:
             if CONTACT_LOSSES and pairs.touching[p] != 0:
-                last, apart = kept_drag(pairs.history, p), sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
-                book[VISCOUS] += 0.5 * dt * dot(last.force, apart)
-                book[ROLLING] -= 0.5 * dt * dot(last.torque, row(particles.twist, k, W))
+                book_parting(walls, pairs, particles, numbers, p, book, dt)
             pairs.touching[p] = 0
             continue
         n = near.normal

@@ -1,0 +1,1 @@
+"""Judges of single contact laws; the family that holds them is ``families/contact_laws.py``."""

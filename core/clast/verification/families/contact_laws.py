@@ -1,0 +1,11 @@
+"""What single contact laws promise: each case holds for laws of one form."""
+
+from __future__ import annotations
+
+from clast.verification.case import Family
+from clast.verification.contact_cases import linear
+
+TEXT = """One case for each contact law beside `hertz_mindlin`, and for its options, with the closed form that its
+authors gave. A law of another form is left out of them."""
+
+FAMILY = Family("contact_laws", "Contact laws one by one", TEXT, (linear.CASE,))
