@@ -32,6 +32,7 @@ class Choices(NamedTuple):
     limit: int
     tension_cutoff: bool
     own_spin: bool = False
+    keeps_force: bool = False
 
 
 class History(NamedTuple):
@@ -90,6 +91,11 @@ def sliding(
     return limited, (scale(1.0 / (k_t * dt + c_t), add(scale(dt, limited), scale(c_t, xi_old))) if slides else xi)
 
 
+def easing(k_t: float, k_before: float, chosen: Choices) -> float:
+    """Return by how much the tangential spring eases as its stiffness grows: k_before/k_t where it keeps its force."""
+    return min(k_before / k_t, 1.0) if chosen.keeps_force else 1.0
+
+
 def overlap_before(touch: Touch) -> float:
     """Return the overlap at the forces before in m, 0 where there was none."""
     return max(touch.overlap + dot(touch.moved, touch.normal), 0.0)
@@ -110,7 +116,8 @@ def frictional_losses(
     """Return what dashpots, slider, rolling and the changing tangential stiffness took up since the forces before.
 
     Each is the mean of its force then and now, times its way. The slider has slipped by what the contact moved and the
-    spring did not. The spring loses ½ Δk_t ξ² where its stiffness k_t falls by Δk_t: no force belongs to that.
+    spring did not. The spring loses ½ Δk_t ξ² where its stiffness k_t falls by Δk_t: no force belongs to that. Where it
+    keeps its force while k_t grows, it eases and loses what it held more before.
 
     Parameters
     ----------
@@ -131,12 +138,14 @@ def frictional_losses(
     drag, stretch = scale(elastic - dot(load.force, n), n), ZERO
     sliding_heat = stiffening = 0.0
     if chosen.sliding:
-        stretch, F_t = sub(after, before), scale(-1.0, across(load.force, n))
+        eased = easing(k_t, k_before, chosen)
+        stretch, F_t = sub(after, scale(eased, before)), scale(-1.0, across(load.force, n))
         slip = sub(across(touch.moved, n), stretch)
         F_before = add(scale(k_before, before), across(before_drag.force, n))
         sliding_heat = 0.5 * dot(add(F_before, F_t), slip)
         drag = add(drag, sub(F_t, scale(k_t, after)))
-        stiffening = 0.5 * (k_before - k_t) * dot(before, after)
+        lost = (k_before - eased * k_t) * dot(before, after) + (1.0 - eased) * k_before * dot(before, before)
+        stiffening = 0.5 * lost
     viscous = 0.5 * dot(add(drag, before_drag.force), add(scale(opened, n), stretch))
     rolled = rolling_heat(touch, load, dt, chosen.own_spin, before_drag.torque)
     return ContactLosses(viscous, sliding_heat, rolled, stiffening, Drag(drag, load.torque_i))

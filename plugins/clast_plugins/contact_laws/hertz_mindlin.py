@@ -19,6 +19,7 @@ from clast_plugins.contact_laws.friction import (
     History,
     TensionCutoff,
     damped,
+    easing,
     frictional_losses,
     limiting_force,
     overlap_before,
@@ -53,16 +54,20 @@ class HertzMindlin(Params):
     sliding, as the paper's authors' program does: for comparison only. ``rolling: own_spin`` acts against each
     particle's own spin as that program does: neither objective nor quiet at rest.
     ``tension_cutoff: true`` never lets F_n pull; the coefficient of restitution is then not e but larger.
+    ``tangential_memory: displacement`` takes k_t ξ at the present overlap: pressing a stretched contact harder tightens
+    its spring, which creates energy. ``force`` adds k_t dξ to a force that stays as k_t grows and is scaled by
+    k_t,new/k_t,old as it falls: either way the spring loses energy.
 
     Limits
     ------
-    Small overlaps; no adhesion; tangential stiffness at the present overlap without unloading correction. A cylinder
-    wall counts as flat.
+    Small overlaps; no adhesion. A cylinder wall counts as flat.
 
     Source
     ------
     Hertz (1882); Mindlin and Deresiewicz (1953); Tsuji, Tanaka and Ishida (1992), doi:10.1016/0032-5910(92)88030-L;
-    rolling: Ai et al. (2011), model A, doi:10.1016/j.powtec.2010.09.030.
+    rolling: Ai et al. (2011), model A, doi:10.1016/j.powtec.2010.09.030; energy of the tangential spring: Elata and
+    Berryman (1996), Mechanics of Materials 24, 229–240; Thornton, Cummins and Cleary (2013),
+    doi:10.1016/j.powtec.2012.08.012.
     """
 
     coulomb_limit: Annotated[
@@ -70,6 +75,9 @@ class HertzMindlin(Params):
         Field(description="the normal force that limits sliding and rolling"),
     ] = "elastic"
     tension_cutoff: TensionCutoff = False
+    tangential_memory: Annotated[
+        Literal["displacement", "force"], Field(description="what a stretched contact keeps while it is pressed harder")
+    ] = "displacement"
     rolling: Annotated[
         Literal["relative", "own_spin"], Field(description="the spin that rolling friction acts against")
     ] = "relative"
@@ -107,6 +115,7 @@ def choices(params: HertzMindlin, features: Features) -> Choices:
         limit=LIMITS[params.coulomb_limit],
         tension_cutoff=params.tension_cutoff,
         own_spin=params.rolling == "own_spin",
+        keeps_force=params.tangential_memory == "force",
     )
 
 
@@ -125,6 +134,11 @@ def elastic_force(touch: Touch, c: Constants) -> float:
     return 4.0 / 3.0 * c.E * contact_radius(touch) * touch.overlap
 
 
+def tangential_stiffness_before(touch: Touch, c: Constants) -> float:
+    """Return k_t at the forces before in N/m."""
+    return 8.0 * c.G * sqrt(touch.radius * overlap_before(touch))
+
+
 def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choices) -> tuple[ContactLoad, History]:
     """Return what the contact does to body j, and its new history."""
     elastic, root = elastic_force(touch, c), damping_root(touch) if chosen.damping else 0.0
@@ -132,8 +146,10 @@ def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choice
     F_lim = limiting_force(elastic, F_n, chosen)
     F_t, xi = ZERO, history.xi
     if chosen.sliding:
-        k_t = 8.0 * c.G * contact_radius(touch)
-        F_t, xi = sliding(touch, k_t, c.c_t * root, c.mu * F_lim, history.xi, dt, chosen)
+        k_t, xi_old = 8.0 * c.G * contact_radius(touch), history.xi
+        if chosen.keeps_force:
+            xi_old = scale(easing(k_t, tangential_stiffness_before(touch, c), chosen), xi_old)
+        F_t, xi = sliding(touch, k_t, c.c_t * root, c.mu * F_lim, xi_old, dt, chosen)
     torque_i, torque_j = ZERO, ZERO
     if chosen.rolling:
         torque_i, torque_j = rolling(touch, c.mu_r, F_lim, dt, chosen.own_spin)
@@ -159,7 +175,7 @@ def losses(
     before_drag: Drag,
 ) -> ContactLosses:
     """Return what the contact has taken up since the forces before."""
-    k_t, k_before = 8.0 * c.G * contact_radius(touch), 8.0 * c.G * sqrt(touch.radius * overlap_before(touch))
+    k_t, k_before = 8.0 * c.G * contact_radius(touch), tangential_stiffness_before(touch, c)
     elastic = elastic_force(touch, c)
     return frictional_losses(touch, elastic, k_t, k_before, before.xi, load, after.xi, dt, chosen, before_drag)
 

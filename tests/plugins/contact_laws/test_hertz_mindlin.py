@@ -238,3 +238,19 @@ def test_with_tension_cutoff_a_contact_never_pulls(touch, n, rate):
     free = dot(contact(features=smooth).load(leaving)[0].force, n)
     cut = dot(contact(features=smooth, tension_cutoff=True).load(leaving)[0].force, n)
     assert cut == pytest.approx(max(free, 0.0), rel=1e-12, abs=1e-300)
+
+
+@pytest.mark.parametrize("memory", ["displacement", "force"])
+@settings(max_examples=40, deadline=None)
+@given(touch=touches(), deeper=numbers(1.0, 4.0), xi=vectors(1e-6))
+def test_only_a_spring_that_keeps_its_displacement_gains_energy_while_it_is_pressed(memory, touch, deeper, xi):
+    law = contact(GLASS._replace(sliding_friction=1e9), Features(False, True, False), tangential_memory=memory)
+    slip, pressed = across(xi, touch.normal), scale((1.0 - deeper) * touch.overlap, touch.normal)
+    there = touch._replace(overlap=deeper * touch.overlap, moved=pressed, velocity=REST)
+    k_t, k_deeper = (8.0 * law.constants.G * math.sqrt(touch.radius * each.overlap) for each in (touch, there))
+    told, kept = law.load(there, slip)
+    held = norm(slip) * (k_t if memory == "force" else k_deeper)
+    assert norm(tangential(told, touch)) == pytest.approx(held, rel=1e-6, abs=1e-9 * norm(told.force))
+    gained = k_deeper * dot(kept, kept) - k_t * dot(slip, slip)
+    size = k_deeper * (norm(slip) + 1e-9 * norm(pressed)) ** 2
+    assert gained * (-1.0 if memory == "force" else 1.0) >= -1e-9 * size
