@@ -173,7 +173,7 @@ def features(plan: Blueprint) -> list[tuple[str, bool, str]]:
             bonds is not None and contacts is not None and contacts.bonded_pairs,
             "beside the bond",
         ),
-        ("contact damping", law is not None and law.damping, "restitution below 1"),
+        ("contact damping", law is not None and law.damping, "dashpots"),
         ("sliding friction", law is not None and law.sliding, "tangential history a contact"),
         ("rolling friction", law is not None and law.rolling, "rolling torques"),
         ("walls", bool(plan.walls), names or "planes, cylinders"),

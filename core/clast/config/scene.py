@@ -11,6 +11,7 @@ from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, Validati
 
 from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
 from clast.config.choice import Chosen, PartOf, default_part
+from clast.config.contacts import Contacts
 from clast.config.document import Document, Problem
 from clast.config.names import FolderName, Key
 from clast.config.overrides import apply_overrides
@@ -21,7 +22,6 @@ from clast.config.sections import (
     Bonds,
     Boundaries,
     Compression,
-    Contacts,
     Material,
     Output,
     ReferencePoint,

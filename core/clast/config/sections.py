@@ -81,42 +81,6 @@ class Bonds(Params):
         return self
 
 
-class PairSettings(Params):
-    """How two materials interact in contact."""
-
-    restitution: Annotated[Number, Field(ge=0, le=1, description="Coefficient of restitution")]
-    sliding_friction: Annotated[Number, Field(ge=0, description="Coefficient of sliding friction")] = 0.0
-    rolling_friction: Annotated[Number, Field(ge=0, description="Coefficient of rolling friction")] = 0.0
-
-
-class Contacts(Params):
-    """Contact between particles, and between particles and walls."""
-
-    law: Annotated[Chosen, PartOf("contact_law"), Field(description="Contact law")]
-    bonded_pairs: Annotated[bool, Field(description="Whether bonded particles also touch")] = True
-    lever: Annotated[
-        Literal["contact_point", "radius"],
-        Field(
-            description="Where contact forces act: at the contact point, which conserves angular momentum, "
-            "or a radius away"
-        ),
-    ] = "contact_point"
-    start_overlap: Annotated[
-        Number, Field(ge=0, description="Largest overlap at the start, as a share of the smaller radius")
-    ] = 0.05
-    pairs: Annotated[
-        dict[str, PairSettings],
-        Field(description="Settings by pair of materials, 'glass-steel', and 'default' for the others"),
-    ] = Field(default_factory=dict)
-
-    def pair(self, first: str, second: str) -> PairSettings | None:
-        """Find the settings of two materials in either order; None where not even ``default`` is given."""
-        for name in (f"{first}-{second}", f"{second}-{first}", "default"):
-            if name in self.pairs:
-                return self.pairs[name]
-        return None
-
-
 class WallSettings(Params):
     """What every wall has beside its shape."""
 

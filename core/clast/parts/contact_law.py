@@ -139,6 +139,9 @@ class ContactLaw:
     losses : (touch, constants, before, load, after, dt, choices, drag) -> ContactLosses, optional
         What one step dissipates, for the energy ledger: from the history before and after, and the drag of the forces
         before. Without it the ledger cannot close.
+    damping : (params) -> bool, optional
+        For a law that damps by parameters of its own: whether it does. Pairs then have no coefficient of restitution.
+        Without it, a law damps where the coefficient of restitution of some pair is below 1.
     History : NamedTuple type or None
         What a contact remembers while it lasts, all 0 at touch; vectors are tangential and the engine carries them
         with the contact plane. Stored only when sliding friction is present.
@@ -154,3 +157,4 @@ class ContactLaw:
     stiffness: Callable[..., float]
     History: type | None = None
     losses: Callable[..., ContactLosses] | None = None
+    damping: Callable[[Any], bool] | None = None

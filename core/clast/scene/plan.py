@@ -67,8 +67,9 @@ def _contact_plan(scene: Scene) -> ContactPlan | None:
     if config is None:
         return None
     pairs = [pair for _, _, pair in material_pairs(scene)]
+    own_damping = config.law.part.damping
     features = Features(
-        damping=any(pair.restitution < 1.0 for pair in pairs),
+        damping=own_damping(config.law.params) if own_damping else any(pair.restitution < 1.0 for pair in pairs),
         sliding=any(pair.sliding_friction > 0.0 for pair in pairs),
         rolling=any(pair.rolling_friction > 0.0 for pair in pairs),
     )

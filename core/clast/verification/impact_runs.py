@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from clast.config.sections import PairSettings
+from clast.config.contacts import PairSettings
 from clast.simulation import Simulation
 from clast.verification.bench import Bench
 from clast.verification.closed_forms.hertz import HertzImpact, effective_modulus

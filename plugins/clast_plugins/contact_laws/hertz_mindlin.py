@@ -8,8 +8,8 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import Field
 
 from clast import hookimpl
-from clast.maths.vec3 import ZERO, dot, scale, sub
-from clast.parts.contact_law import ContactLaw, ContactLoad, ContactLosses, Drag, Features, MaterialPair, Touch
+from clast.maths.vec3 import ZERO, scale, sub
+from clast.parts.contact_law import ContactLaw, ContactLoad, Features, MaterialPair, Touch
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.contact_laws.damping import damping_ratio
@@ -20,10 +20,17 @@ from clast_plugins.contact_laws.friction import (
     TensionCutoff,
     damped,
     easing,
-    frictional_losses,
     limiting_force,
-    overlap_before,
     sliding,
+)
+from clast_plugins.contact_laws.hertz import (
+    contact_radius,
+    elastic_force,
+    energy,
+    losses,
+    stiffness,
+    tangential_stiffness,
+    tangential_stiffness_before,
 )
 from clast_plugins.contact_laws.moduli import normal_modulus, tangential_modulus
 from clast_plugins.contact_laws.rolling import rolling
@@ -119,24 +126,9 @@ def choices(params: HertzMindlin, features: Features) -> Choices:
     )
 
 
-def contact_radius(touch: Touch) -> float:
-    """Return a = √(R* δ) in m."""
-    return sqrt(touch.radius * touch.overlap)
-
-
 def damping_root(touch: Touch) -> float:
     """Return √(a m*), which the damping of both directions has in common."""
     return sqrt(contact_radius(touch) * (1.0 / touch.inverse_mass))
-
-
-def elastic_force(touch: Touch, c: Constants) -> float:
-    """Return Hertz's repulsion in N."""
-    return 4.0 / 3.0 * c.E * contact_radius(touch) * touch.overlap
-
-
-def tangential_stiffness_before(touch: Touch, c: Constants) -> float:
-    """Return k_t at the forces before in N/m."""
-    return 8.0 * c.G * sqrt(touch.radius * overlap_before(touch))
 
 
 def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choices) -> tuple[ContactLoad, History]:
@@ -146,7 +138,7 @@ def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choice
     F_lim = limiting_force(elastic, F_n, chosen)
     F_t, xi = ZERO, history.xi
     if chosen.sliding:
-        k_t, xi_old = 8.0 * c.G * contact_radius(touch), history.xi
+        k_t, xi_old = tangential_stiffness(touch, c), history.xi
         if chosen.keeps_force:
             xi_old = scale(easing(k_t, tangential_stiffness_before(touch, c), chosen), xi_old)
         F_t, xi = sliding(touch, k_t, c.c_t * root, c.mu * F_lim, xi_old, dt, chosen)
@@ -154,35 +146,6 @@ def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choice
     if chosen.rolling:
         torque_i, torque_j = rolling(touch, c.mu_r, F_lim, dt, chosen.own_spin)
     return ContactLoad(sub(scale(F_n, touch.normal), F_t), torque_i, torque_j), History(xi)
-
-
-def energy(touch: Touch, c: Constants, history: History, chosen: Choices) -> float:
-    """Return 2/5 F δ + ½ k_t ξ² in J."""
-    stored = 0.4 * elastic_force(touch, c) * touch.overlap
-    if chosen.sliding:
-        stored = stored + 4.0 * c.G * contact_radius(touch) * dot(history.xi, history.xi)
-    return stored
-
-
-def losses(
-    touch: Touch,
-    c: Constants,
-    before: History,
-    load: ContactLoad,
-    after: History,
-    dt: float,
-    chosen: Choices,
-    before_drag: Drag,
-) -> ContactLosses:
-    """Return what the contact has taken up since the forces before."""
-    k_t, k_before = 8.0 * c.G * contact_radius(touch), tangential_stiffness_before(touch, c)
-    elastic = elastic_force(touch, c)
-    return frictional_losses(touch, elastic, k_t, k_before, before.xi, load, after.xi, dt, chosen, before_drag)
-
-
-def stiffness(c: Constants, radius: float, overlap: float) -> float:
-    """Return the normal tangent stiffness 2 E* √(R* δ) in N/m."""
-    return 2.0 * c.E * sqrt(radius * overlap)
 
 
 @hookimpl
