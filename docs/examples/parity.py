@@ -35,7 +35,7 @@ SWITCHES = {
     "integrator": {"integrator": "midstep", "walls.upper.point": [0, 0, "1.08 mm"]},
     "bond_kinematics": {"bonds.kinematics": "total"},
     "coulomb_limit": {"contacts.law.coulomb_limit": "elastic"},
-    "rolling": {"contacts.law.rolling": "relative"},
+    "rolling": {"contacts.rolling.spin": "relative"},
     "lever": {"contacts.lever": "contact_point"},
 }
 """From MUSEN's choices to Clast's defaults, one at a time."""

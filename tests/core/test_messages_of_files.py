@@ -48,8 +48,8 @@ def test_what_is_wrong_with_a_table_is_told_with_its_line(
     [
         (
             "law: hertz_mindlin",
-            "law: {type: hertz_mindlin, rollin: none}",
-            "scene.yaml:15:30: contacts.law.rollin: not a known key; did you mean 'rolling'?",
+            "law: {type: hertz_mindlin, tension_cutof: true}",
+            "scene.yaml:15:30: contacts.law.tension_cutof: not a known key; did you mean 'tension_cutoff'?",
         ),
         (
             "young_modulus: 100 MPa, poisson_ratio: 0.2, normal",

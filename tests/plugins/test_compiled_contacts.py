@@ -58,7 +58,7 @@ def random_touches() -> np.ndarray:
 
 @pytest.mark.parametrize(
     "options",
-    [{}, {"coulomb_limit": "musen", "rolling": "own_spin"}, {"coulomb_limit": "total", "tension_cutoff": True}],
+    [{}, {"coulomb_limit": "musen"}, {"coulomb_limit": "total", "tension_cutoff": True, "tangential_memory": "force"}],
 )
 def test_the_contact_law_gives_the_same_bits(options):
     law = contact(**options)

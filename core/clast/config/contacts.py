@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from clast.config.choice import Chosen, PartOf
+from clast.config.choice import Chosen, PartOf, default_part
 from clast.config.problems import MISSING, WRONG, problem, refuse
 from clast.config.quantities import Number
 from clast.parts.params import Params
@@ -27,6 +27,9 @@ class Contacts(Params):
     """Contact between particles, and between particles and walls."""
 
     law: Annotated[Chosen, PartOf("contact_law"), Field(description="Contact law")]
+    rolling: Annotated[
+        Chosen, PartOf("rolling_resistance"), Field(description="Rolling resistance, where pairs have rolling friction")
+    ] = default_part("constant_torque")
     bonded_pairs: Annotated[bool, Field(description="Whether bonded particles also touch")] = True
     lever: Annotated[
         Literal["contact_point", "radius"],

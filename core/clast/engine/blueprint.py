@@ -11,6 +11,7 @@ from clast.parts.bond_kinematics import BondKinematics
 from clast.parts.bond_model import BondModel
 from clast.parts.contact_law import ContactLaw, Features
 from clast.parts.integrator import Integrator
+from clast.parts.rolling_resistance import RollingResistance
 from clast.parts.wall import BodyForce, Motion, Wall
 
 TURNED = "turned"
@@ -52,6 +53,8 @@ class ContactPlan:
     ----------
     choices : NamedTuple
         Constants of the compiled law.
+    rolling, rolling_choices : RollingResistance and NamedTuple, or None
+        What resists rolling, where something does, and its constants.
     bonded_pairs, between_particles : bool
         Whether bonded particles touch too, and whether there are two particles at all.
     one_material : bool
@@ -65,11 +68,33 @@ class ContactPlan:
     law: ContactLaw
     features: Features
     choices: Any
+    rolling: RollingResistance | None = None
+    rolling_choices: Any = None
     bonded_pairs: bool = True
     between_particles: bool = True
     one_material: bool = True
     one_size: bool = True
     rests: bool = False
+
+    @property
+    def remembers(self) -> bool:
+        """Whether the history of the law is stored."""
+        return self.features.sliding and self.law.History is not None
+
+    @property
+    def history(self) -> int:
+        """Numbers that law and rolling resistance remember of a contact."""
+        rolled = width(self.rolling.History) if self.rolling is not None else 0
+        return (width(self.law.History) if self.remembers else 0) + rolled
+
+    @property
+    def constants(self) -> int:
+        """Numbers of one pair of materials."""
+        return width(self.law.Constants) + (width(self.rolling.Constants) if self.rolling is not None else 0)
+
+    def turns(self, ledger: bool) -> bool:
+        """Tell whether it matters how far bodies turn against each other."""
+        return self.rolling is not None and (ledger or self.rolling.History is not None)
 
 
 @dataclass(frozen=True)
@@ -127,18 +152,16 @@ class Blueprint:
         return damped_contacts or damped_bonds or bool(self.body_forces)
 
     @property
-    def history(self) -> type | None:
-        """Record that contacts remember, None when they remember nothing."""
-        if self.contacts is None or not self.contacts.features.sliding:
-            return None
-        return self.contacts.law.History
+    def history(self) -> int:
+        """Numbers that contacts remember of what their laws say."""
+        return 0 if self.contacts is None else self.contacts.history
 
     @property
     def remembered(self) -> int:
         """Numbers that a contact keeps from one force evaluation to the next: its normal, its history, its drag."""
         books = self.ledger and self.contacts is not None and self.contacts.law.losses is not None
         drag = 6 if self.contacts is not None and self.contacts.features.rolling else 3
-        kept = width(self.history) + (drag if books else 0)
+        kept = self.history + (drag if books else 0)
         return 3 + kept if kept else 0
 
     def functions(self) -> list[Callable[..., Any]]:
@@ -159,7 +182,16 @@ class Blueprint:
         if self.contacts is not None:
             found += [self.contacts.law.load, self.contacts.law.energy]
             found += [self.contacts.law.losses] if self.ledger else []
+            found += _rolling_functions(self.contacts, self.ledger)
         found += [wall.nearest for wall in self.walls]
         found += [function for motion in self.motions for function in (motion.velocity, motion.answer)]
         found += [force.acceleration for force in self.body_forces]
         return [function for function in found if function is not None]
+
+
+def _rolling_functions(contacts: ContactPlan, ledger: bool) -> list[Callable[..., Any] | None]:
+    rolling = contacts.rolling
+    if rolling is None:
+        return []
+    stiffness = contacts.law.stiffness if rolling.History is not None else None
+    return [rolling.load, rolling.energy, stiffness, rolling.losses if ledger else None]

@@ -15,7 +15,8 @@ from clast.maths.rotation import IDENTITY
 from clast.maths.vec3 import ZERO
 from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad, RandomKey, Strain
-from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Touch
+from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, MaterialPair, Touch
+from clast.parts.rolling_resistance import Pressing, RollingLoad, RollingLosses
 from clast.scene.plan import bond_constants, material_pairs
 from clast.scene.scene import Scene
 
@@ -76,6 +77,24 @@ def _try_contact(scene: Scene, plan: Blueprint) -> None:
             rest = (touch, constants, history, load, after, 1e-6, plan.contacts.choices, NO_DRAG)
             _call(law.losses, ContactLosses, *rest)
         _call(law.energy, float, touch, constants, history, plan.contacts.choices)
+        if plan.contacts.rolling is not None:
+            _try_rolling(scene, plan, touch, pair, load.limit)
+
+
+def _try_rolling(scene: Scene, plan: Blueprint, touch: Touch, pair: MaterialPair, limit: float) -> None:
+    assert plan.contacts is not None
+    assert scene.config.contacts is not None
+    rolling, choices = plan.contacts.rolling, plan.contacts.rolling_choices
+    assert rolling is not None
+    constants = _call(rolling.constants, rolling.Constants, scene.config.contacts.rolling.params, pair)
+    history, pressing = _zeros(rolling.History), Pressing(limit, 1.0, 1.0)
+    load, after = _call(rolling.load, tuple, touch, constants, history, pressing, 1e-6, choices)
+    _expect(rolling.load, load, RollingLoad)
+    if plan.ledger:
+        rest = (touch, constants, history, load, after, pressing, 1e-6, choices, ZERO)
+        _call(rolling.losses, RollingLosses, *rest)
+    if rolling.energy is not None:
+        _call(rolling.energy, float, constants, history, touch.radius, 1.0)
 
 
 def _zeros(record: type | None) -> Any:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from clast.engine.records import build, width
 from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import ContactLaw, Touch
+from clast.parts.rolling_resistance import Pressing, RollingResistance
 
 SMALL = 1e-6
 ALONG = (0.0, 0.0, 1.0)
@@ -22,11 +23,52 @@ class Response(NamedTuple):
         Tangential stiffness as a share of k.
     damping_along, damping_across : float
         Damping ratios: dashpots as shares of 2 √(k m*).
+    rolling, damping_rolling : float
+        Rolling stiffness as a share of k R*², and its dashpot as a share of 2 √(k R*² I*).
     """
 
     across: float
     damping_along: float
     damping_across: float
+    rolling: float = 0.0
+    damping_rolling: float = 0.0
+
+
+def rolling_response(
+    rolling: RollingResistance, constants: Any, choices: Any, stiffness: float, radius: float, mass: float
+) -> tuple[float, float]:
+    """Return how a rolling resistance answers small rotations of two equal spheres, as shares.
+
+    Parameters
+    ----------
+    rolling, constants, choices : part and its records
+    stiffness : float
+        Normal tangent stiffness k in N/m.
+    radius, mass : float
+        Of each sphere, in m and kg.
+
+    Returns
+    -------
+    stiffness, damping : float
+        Rolling stiffness as a share of k R*², and its dashpot as a share of 2 √(k R*² I*). Both 0 for a part without
+        a History: a torque of bounded size without a spring counts for nothing here.
+    """
+    if rolling.History is None or not stiffness > 0.0:
+        return 0.0, 0.0
+    half, inertia = 0.5 * radius, 0.2 * mass * radius**2
+    rest = Touch(0.01 * half, ALONG, ZERO, ZERO, ZERO, half, radius, radius, 2.0 / mass, 1.0 / inertia)
+    pressing = Pressing(0.01 * half * stiffness, stiffness, stiffness)
+    k, fresh = stiffness * half * half, build(rolling.History, [0.0] * width(rolling.History))
+    rate = SMALL * sqrt(k / inertia)
+
+    def torque(turned: float, spin: float) -> float:
+        touch = rest._replace(turned=(turned, 0.0, 0.0), spin_i=(-0.5 * spin, 0.0, 0.0), spin_j=(0.5 * spin, 0.0, 0.0))
+        load, _ = rolling.load(touch, constants, fresh, pressing, SMALL / rate, choices)
+        return float(load.torque_i[0])
+
+    spring = (torque(SMALL, 0.0) - torque(-SMALL, 0.0)) / (2.0 * SMALL)
+    dashpot = (torque(0.0, rate) - torque(0.0, -rate)) / (2.0 * rate)
+    return max(spring, 0.0) / k, max(dashpot, 0.0) / (2.0 * sqrt(k * inertia))
 
 
 def respond(law: ContactLaw, constants: Any, choices: Any, radius: float, mass: float) -> Response:

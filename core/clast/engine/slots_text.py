@@ -6,8 +6,9 @@ from itertools import accumulate
 
 from clast.engine.blueprint import Blueprint, BondPlan
 from clast.engine.kernels.layout import BOND_SLOTS
-from clast.engine.records import construct, construct_from_fields, destruct, fields, width
+from clast.engine.records import construct, destruct, width
 from clast.engine.slots_around import body_text, walls_text
+from clast.engine.slots_contacts import contacts_text
 from clast.engine.slots_pieces import bind, bind_record, function
 
 HEADER = '''"""What one scene plugs into the step loop. Written by the assembler; do not edit."""
@@ -16,7 +17,9 @@ from importlib import import_module
 from clast.engine.compiler import inlined
 from clast.maths.rotation import IDENTITY, spin_about, swing
 from clast.maths.vec3 import ZERO, add
+from clast.parts.contact_law import ContactLoad, ContactLosses, Drag, overlap_before
 from clast.parts.integrator import Stage
+from clast.parts.rolling_resistance import Pressing, RollingLoad
 
 from .layout import LANES
 
@@ -36,7 +39,7 @@ def slots_text(plan: Blueprint) -> str:
         _flags(plan),
         _integrator(plan),
         _bonds(plan),
-        _contacts(plan),
+        contacts_text(plan),
         walls_text(plan),
         body_text(plan),
     ]
@@ -92,8 +95,9 @@ def _flags(plan: Blueprint) -> str:
         "ORIENTATION": plan.orientation,
         "SPIN": plan.spin,
         "VELOCITY_FORCES": plan.velocity_forces,
-        "HISTORY": width(plan.history),
-        "CONTACT_CONSTANTS": 0 if contacts is None else width(contacts.law.Constants),
+        "TURNS": contacts is not None and contacts.turns(plan.ledger),
+        "HISTORY": plan.history,
+        "CONTACT_CONSTANTS": 0 if contacts is None else contacts.constants,
     }
     return "\n".join(f"{name} = {value!r}" for name, value in values.items())
 
@@ -172,64 +176,4 @@ def _bond_constants(bonds: BondPlan, first: int) -> list[str]:
     return [
         function("read_uniforms", "table", f"return ({reads},)" if shared else "return NOTHING"),
         function("read_constants", "uniforms, data, lane", f"return {record}"),
-    ]
-
-
-def _contacts(plan: Blueprint) -> str:
-    if plan.contacts is None:
-        names = (
-            "contact_load contact_energy contact_losses read_contact_constants row_constants read_history write_history"
-        )
-        names += " carry_history fresh_history load_history store_history"
-        return "CHOICES = None\n" + " = ".join(names.split()) + " = nothing"
-    law, history = plan.contacts.law, plan.history
-    count = width(law.Constants)
-    in_lane = [f"data[(first + {k}) * LANES + lane]" for k in range(max(count, width(history)))]
-    in_row = [f"row[{k}]" for k in range(count)]
-    lines = [
-        bind("Choices", type(plan.contacts.choices)),
-        f"CHOICES = Choices{tuple(plan.contacts.choices)!r}",
-        bind("contact_load", law.load),
-        bind("contact_energy", law.energy),
-        bind("contact_losses", law.losses if plan.ledger else None),
-        bind_record("ContactConstants", law.Constants),
-        bind_record("History", law.History),
-        function(
-            "read_contact_constants",
-            "data, first, lane",
-            f"return {construct(law.Constants, 'ContactConstants', in_lane)}",
-        ),
-        function("row_constants", "row", f"return {construct(law.Constants, 'ContactConstants', in_row)}"),
-    ]
-    return "\n".join(lines + _history(law.History, history, in_lane))
-
-
-def _history(declared: type | None, kept: type | None, in_lane: list[str]) -> list[str]:
-    fresh = "None" if declared is None else construct(declared, "History", ["0.0"] * width(declared))
-    lines = [function("fresh_history", "", f"return {fresh}")]
-    if kept is None:
-        return [
-            *lines,
-            function("read_history", "data, first, lane", f"return {fresh}"),
-            "write_history = carry_history = load_history = store_history = nothing",
-        ]
-    numbers = destruct(kept, "record")
-    carried = iter(
-        f"spin_about(swing(record.{field.name}, old, new), new, angle)" if field.size == 3 else f"record.{field.name}"
-        for field in fields(kept)
-    )
-    rows = [f"row[{3 + k}]" for k in range(len(numbers))]
-    return [
-        *lines,
-        function("read_history", "data, first, lane", f"return {construct(kept, 'History', in_lane)}"),
-        function(
-            "write_history", "data, first, lane, record", [f"{a} = {b}" for a, b in zip(in_lane, numbers, strict=False)]
-        ),
-        function(
-            "carry_history",
-            "record, old, new, angle",
-            f"return {construct_from_fields(kept, 'History', lambda _: next(carried))}",
-        ),
-        function("load_history", "row", f"return {construct(kept, 'History', rows)}"),
-        function("store_history", "row, record", [f"{a} = {b}" for a, b in zip(rows, numbers, strict=True)]),
     ]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.response import Response, respond
+from clast.engine.response import Response, respond, rolling_response
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
@@ -192,7 +192,7 @@ def touching_springs(
 ) -> Springs:
     """Return the springs of contacts from their effective radii and overlaps, (p,) each in m."""
     stiffness, damping = np.zeros((len(first), 4)), np.zeros((len(first), 4))
-    per_mass = np.append(bodies.inverse_mass, 0.0)
+    per_mass, per_inertia = np.append(bodies.inverse_mass, 0.0), np.append(bodies.inverse_inertia, 0.0)
     for (a, b), (law, constants, response) in responses.items():
         rows = np.nonzero((materials == (a, b)).all(axis=1))[0]
         each = zip(radius[rows].tolist(), overlap[rows].tolist(), strict=True)
@@ -200,6 +200,10 @@ def touching_springs(
         critical = 2.0 * np.sqrt(k / (per_mass[first[rows]] + per_mass[second[rows]]))
         stiffness[rows, 0], stiffness[rows, 1] = k, response.across * k
         damping[rows, 0], damping[rows, 1] = response.damping_along * critical, response.damping_across * critical
+        bending = k * radius[rows] ** 2
+        stiffness[rows, 3] = response.rolling * bending
+        critical_roll = 2.0 * np.sqrt(bending / (per_inertia[first[rows]] + per_inertia[second[rows]]))
+        damping[rows, 3] = response.damping_rolling * critical_roll
     return Springs(first, second, normal, arms, stiffness, damping)
 
 
@@ -212,7 +216,13 @@ def contact_responses(scene: Scene, plan: Blueprint) -> Responses:
     found: Responses = {}
     for a, b, pair in material_pairs(scene):
         constants = law.constants(chosen.params, pair)
-        response = respond(law, constants, plan.contacts.choices, float(scene.radius[k]), float(scene.mass[k]))
+        radius, mass = float(scene.radius[k]), float(scene.mass[k])
+        response = respond(law, constants, plan.contacts.choices, radius, mass)
+        if plan.contacts.rolling is not None:
+            rolled = plan.contacts.rolling.constants(scene.config.contacts.rolling.params, pair)
+            k_n = law.stiffness(constants, 0.5 * radius, 0.005 * radius)
+            shares = rolling_response(plan.contacts.rolling, rolled, plan.contacts.rolling_choices, k_n, radius, mass)
+            response = response._replace(rolling=shares[0], damping_rolling=shares[1])
         found[a, b] = found[b, a] = (law, constants, response)
     return found
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from clast.maths.vec3 import ZERO, Vec
+from clast.maths.vec3 import ZERO, Vec, dot
 from clast.parts.params import Params
 
 
@@ -35,7 +35,8 @@ class Touch(NamedTuple):
         the step is not, because velocities may belong to the end of that time. Given when the law has a History that
         is stored, and for the energy ledger.
     turned : vector
-        How far j has turned against i since the forces before, in rad. Given for the energy ledger only.
+        How far j has turned against i since the forces before, in rad. Given where particles roll with resistance, for
+        the energy ledger and for a rolling resistance with a History.
     """
 
     overlap: float
@@ -52,12 +53,28 @@ class Touch(NamedTuple):
     turned: Vec = ZERO
 
 
+def overlap_before(touch: Touch) -> float:
+    """Return the overlap at the forces before in m, 0 where there was none."""
+    return max(touch.overlap + dot(touch.moved, touch.normal), 0.0)
+
+
 class ContactLoad(NamedTuple):
-    """Force on j at the contact point (i gets its opposite) in N; torques beyond that force's own moment in N m."""
+    """What a contact does to both bodies.
+
+    Attributes
+    ----------
+    force : vector
+        On j at the contact point, in N; i gets its opposite.
+    torque_i, torque_j : vector
+        Torques beyond that force's own moment, in N m.
+    limit : float
+        Normal force that limits friction, in N, at least 0: what a rolling resistance goes by.
+    """
 
     force: Vec
     torque_i: Vec
     torque_j: Vec
+    limit: float = 0.0
 
 
 class Drag(NamedTuple):
@@ -84,7 +101,8 @@ class ContactLosses(NamedTuple):
         What elastic energy loses because a stiffness changes while its spring is tense; negative where it gains. 0 for
         a law whose force is the gradient of its energy.
     drag : Drag
-        The force as it resists what the contact moves; the torque is kept with rolling friction only.
+        The force as it resists what the contact moves; the torque is kept with rolling friction only, and is the
+        rolling resistance's own.
     """
 
     viscous: float

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from clast.parts.generator import Generator
     from clast.parts.integrator import Integrator
     from clast.parts.neighbour_search import NeighbourSearch
+    from clast.parts.rolling_resistance import RollingResistance
     from clast.parts.wall import BodyForce, Motion, Wall
     from clast.parts.writer import Writer
 
@@ -30,6 +31,7 @@ KINDS = (
     "bond_model",
     "bond_kinematics",
     "contact_law",
+    "rolling_resistance",
     "integrator",
     "neighbour_search",
     "wall",
@@ -174,6 +176,10 @@ class Registry:
     def contact_law(self, name: str, part: ContactLaw) -> None:
         """Register a contact law."""
         self.add("contact_law", name, part)
+
+    def rolling_resistance(self, name: str, part: RollingResistance) -> None:
+        """Register a rolling resistance."""
+        self.add("rolling_resistance", name, part)
 
     def integrator(self, name: str, part: Integrator) -> None:
         """Register a time integrator."""

@@ -77,6 +77,8 @@ def _contact_plan(scene: Scene) -> ContactPlan | None:
         law=config.law.part,
         features=features,
         choices=config.law.part.choices(config.law.params, features),
+        rolling=config.rolling.part if features.rolling else None,
+        rolling_choices=config.rolling.part.choices(config.rolling.params) if features.rolling else None,
         bonded_pairs=config.bonded_pairs,
         between_particles=len(scene.radius) > 1,
         one_material=len(set(scene.material.tolist())) == 1,

@@ -17,7 +17,7 @@ from clast.engine.kernels.layout import (
     RADIUS,
     TERMS,
 )
-from clast.engine.records import fields, leaves, numbers, width
+from clast.engine.records import fields, leaves, numbers
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
 from clast.engine.tables import (
     bond_table,
@@ -72,7 +72,7 @@ def weights(scene: Scene) -> Floats:
 def _scratch_slots(plan: Blueprint) -> int:
     if plan.contacts is None:
         return BOND_SCRATCH
-    return max(BOND_SCRATCH, CONTACT_FREE + width(plan.contacts.law.Constants) + width(plan.history) + 1)
+    return max(BOND_SCRATCH, CONTACT_FREE + plan.contacts.constants + plan.history + 1)
 
 
 def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, particles: Particles, dt: float, skin: float) -> Numbers:
@@ -125,10 +125,11 @@ def _contact_table(scene: Scene, plan: Blueprint) -> Floats:
     count = len(scene.config.materials)
     if plan.contacts is None or scene.config.contacts is None:
         return np.zeros((count, count, 0))
-    law, chosen = plan.contacts.law, scene.config.contacts.law
-    table = np.zeros((count, count, width(law.Constants)))
+    config, rolling = scene.config.contacts, plan.contacts.rolling
+    table = np.zeros((count, count, plan.contacts.constants))
     for i, j, pair in material_pairs(scene):
-        row = numbers(law.constants(chosen.params, pair))
+        row = numbers(plan.contacts.law.constants(config.law.params, pair))
+        row += numbers(rolling.constants(config.rolling.params, pair)) if rolling is not None else []
         table[i, j] = row
         table[j, i] = row
     return table

@@ -91,12 +91,18 @@ def _mirrored(law: Contact, touch: Touch) -> None:
 def _turned(law: Contact, touch: Touch, q: Quat) -> None:
     here, _ = law.answer(touch, law.fresh)
     there, _ = law.answer(turned(touch, q), law.fresh)
-    _alike(ContactLoad(*(rotate(q, vector) for vector in here)), there, _size(law, touch), touch)
+    turned_here = ContactLoad(rotate(q, here.force), rotate(q, here.torque_i), rotate(q, here.torque_j))
+    _alike(turned_here, there, _size(law, touch), touch)
 
 
 def _alike(found: ContactLoad, expected: ContactLoad, size: float, touch: Touch) -> None:
     arms = (1.0, touch.radius_i, touch.radius_i)
-    gaps = [norm(sub(a, b)) / arm for a, b, arm in zip(found, expected, arms, strict=True)]
+    pairs = [
+        (found.force, expected.force),
+        (found.torque_i, expected.torque_i),
+        (found.torque_j, expected.torque_j),
+    ]
+    gaps = [norm(sub(a, b)) / arm for (a, b), arm in zip(pairs, arms, strict=True)]
     must(max(gaps) <= 1e-8 * size, lambda: f"{found}, but {expected} at {touch}")
 
 
@@ -185,7 +191,7 @@ def _slider_takes(law: Contact, overlap: float, way: Vec, far: float) -> None:
 
 def compiled_alike(law: Contact, rows: int = 500) -> None:
     """Compare load and energy along random touches, compiled and in plain Python."""
-    same_bits(_sweep(law), [law.law.load, law.law.energy], (rows, 10), _random_touches(rows), law.constants)
+    same_bits(_sweep(law), [law.law.load, law.law.energy], (rows, 10), random_touches(rows), law.constants)
 
 
 def _sweep(law: Contact) -> Callable[..., None]:
@@ -209,7 +215,7 @@ def _sweep(law: Contact) -> Callable[..., None]:
     return sweep
 
 
-def _random_touches(rows: int) -> Any:
+def random_touches(rows: int) -> Any:
     """Return the numbers of random contacts, (rows, 21); the first ones neither slide nor spin."""
     draw = np.random.default_rng(11)
     found = np.empty((rows, 21))

@@ -66,6 +66,13 @@ def sticks(scene: SceneConfig) -> str | None:
     return f"{law.name!r} remembers nothing of a contact, so it has no friction that can hold"
 
 
+def holds_rolling(scene: SceneConfig) -> str | None:
+    """Ask for a rolling resistance that remembers how far a contact has rolled."""
+    assert scene.contacts is not None
+    rolling = scene.contacts.rolling
+    return None if rolling.part.History is not None else f"{rolling.name!r} has no spring that could hold what rests"
+
+
 def losses(scene: SceneConfig) -> str | None:
     """Ask for a contact law that tells what it dissipates."""
     assert scene.contacts is not None

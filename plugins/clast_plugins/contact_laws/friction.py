@@ -12,7 +12,6 @@ from pydantic import Field
 
 from clast.maths.vec3 import ZERO, Vec, across, add, dot, scale, sub
 from clast.parts.contact_law import ContactLoad, ContactLosses, Drag, Touch
-from clast_plugins.contact_laws.rolling import rolling_heat
 
 ELASTIC, TOTAL, MUSEN = 0, 1, 2
 LIMITS = {"elastic": ELASTIC, "total": TOTAL, "musen": MUSEN}
@@ -28,10 +27,8 @@ class Choices(NamedTuple):
 
     damping: bool
     sliding: bool
-    rolling: bool
     limit: int
     tension_cutoff: bool
-    own_spin: bool = False
     keeps_force: bool = False
 
 
@@ -81,14 +78,23 @@ def sliding(
     xi = add(xi_old, across(touch.moved, touch.normal))
     spring = scale(k_t, xi)
     dashpot = scale(c_t, across(touch.velocity, touch.normal)) if chosen.damping else ZERO
-    judged = spring if chosen.limit == MUSEN else add(spring, dashpot)
-    size2 = dot(judged, judged)
-    slides = size2 > limit * limit
-    limited = scale(limit / sqrt(size2) if slides else 1.0, judged)
     if chosen.limit == MUSEN:
+        limited, slides = capped(spring, limit)
         return (limited, scale(1.0 / k_t, limited)) if slides else (add(spring, dashpot), xi)
-    # while sliding, spring and dashpot give way together: k_t ξ + c_t dξ/dt is the limit
-    return limited, (scale(1.0 / (k_t * dt + c_t), add(scale(dt, limited), scale(c_t, xi_old))) if slides else xi)
+    limited, slides = capped(add(spring, dashpot), limit)
+    return limited, (given_way(k_t, c_t, limited, xi_old, dt) if slides else xi)
+
+
+def capped(force: Vec, limit: float) -> tuple[Vec, bool]:
+    """Return a force, shortened to its limit where it is larger, and whether it is."""
+    size2 = dot(force, force)
+    larger = size2 > limit * limit
+    return scale(limit / sqrt(size2) if larger else 1.0, force), larger
+
+
+def given_way(k: float, c: float, limited: Vec, stretch: Vec, dt: float) -> Vec:
+    """Return the stretch of a spring that gives way together with its dashpot: k ξ + c dξ/dt is the limit."""
+    return scale(1.0 / (k * dt + c), add(scale(dt, limited), scale(c, stretch)))
 
 
 def easing(k_t: float, k_before: float, chosen: Choices) -> float:
@@ -96,9 +102,37 @@ def easing(k_t: float, k_before: float, chosen: Choices) -> float:
     return min(k_before / k_t, 1.0) if chosen.keeps_force else 1.0
 
 
-def overlap_before(touch: Touch) -> float:
-    """Return the overlap at the forces before in m, 0 where there was none."""
-    return max(touch.overlap + dot(touch.moved, touch.normal), 0.0)
+class Slipping(NamedTuple):
+    """What a spring and dashpot behind a slider took up: heat of the slider and stiffening in J, stretch, drag."""
+
+    slider: float
+    stiffening: float
+    stretch: Vec
+    drag: Vec
+
+
+def slipping(
+    way: Vec, k: float, k_before: float, eased: float, before: Vec, after: Vec, F: Vec, drag_before: Vec
+) -> Slipping:
+    """Return what a spring and dashpot behind a slider took up since the forces before, but for the dashpot's heat.
+
+    Parameters
+    ----------
+    way : vector
+        What all three together moved.
+    k, k_before : float
+        Stiffness now and then.
+    eased : float
+        Share of its stretch that the spring kept as its stiffness changed.
+    before, after : vector
+        Stretch of the spring then and now.
+    F, drag_before : vector
+        Force of spring and dashpot now, and of the dashpot then.
+    """
+    stretch = sub(after, scale(eased, before))
+    slider = 0.5 * dot(add(add(scale(k_before, before), drag_before), F), sub(way, stretch))
+    lost = (k_before - eased * k) * dot(before, after) + (1.0 - eased) * k_before * dot(before, before)
+    return Slipping(slider, 0.5 * lost, stretch, sub(F, scale(k, after)))
 
 
 def frictional_losses(
@@ -109,11 +143,10 @@ def frictional_losses(
     before: Vec,
     load: ContactLoad,
     after: Vec,
-    dt: float,
     chosen: Choices,
     before_drag: Drag,
 ) -> ContactLosses:
-    """Return what dashpots, slider, rolling and the changing tangential stiffness took up since the forces before.
+    """Return what dashpots, slider and the changing tangential stiffness took up since the forces before.
 
     Each is the mean of its force then and now, times its way. The slider has slipped by what the contact moved and the
     spring did not. The spring loses ½ Δk_t ξ² where its stiffness k_t falls by Δk_t: no force belongs to that. Where it
@@ -129,7 +162,6 @@ def frictional_losses(
     before, after : vector
         Tangential displacement in m, then and now.
     load : ContactLoad
-    dt : float
     chosen : Choices
     before_drag : Drag
     """
@@ -138,14 +170,9 @@ def frictional_losses(
     drag, stretch = scale(elastic - dot(load.force, n), n), ZERO
     sliding_heat = stiffening = 0.0
     if chosen.sliding:
-        eased = easing(k_t, k_before, chosen)
-        stretch, F_t = sub(after, scale(eased, before)), scale(-1.0, across(load.force, n))
-        slip = sub(across(touch.moved, n), stretch)
-        F_before = add(scale(k_before, before), across(before_drag.force, n))
-        sliding_heat = 0.5 * dot(add(F_before, F_t), slip)
-        drag = add(drag, sub(F_t, scale(k_t, after)))
-        lost = (k_before - eased * k_t) * dot(before, after) + (1.0 - eased) * k_before * dot(before, before)
-        stiffening = 0.5 * lost
+        eased, F_t = easing(k_t, k_before, chosen), scale(-1.0, across(load.force, n))
+        way, drag_t = across(touch.moved, n), across(before_drag.force, n)
+        lost = slipping(way, k_t, k_before, eased, before, after, F_t, drag_t)
+        sliding_heat, stiffening, stretch, drag = lost.slider, lost.stiffening, lost.stretch, add(drag, lost.drag)
     viscous = 0.5 * dot(add(drag, before_drag.force), add(scale(opened, n), stretch))
-    rolled = rolling_heat(touch, load, dt, chosen.own_spin, before_drag.torque)
-    return ContactLosses(viscous, sliding_heat, rolled, stiffening, Drag(drag, load.torque_i))
+    return ContactLosses(viscous, sliding_heat, 0.0, stiffening, Drag(drag, ZERO))

@@ -9,8 +9,8 @@ from math import sqrt
 from typing import Protocol
 
 from clast.maths.vec3 import dot
-from clast.parts.contact_law import ContactLoad, ContactLosses, Drag, Touch
-from clast_plugins.contact_laws.friction import Choices, History, frictional_losses, overlap_before
+from clast.parts.contact_law import ContactLoad, ContactLosses, Drag, Touch, overlap_before
+from clast_plugins.contact_laws.friction import Choices, History, frictional_losses
 
 
 class Moduli(Protocol):
@@ -69,7 +69,7 @@ def losses(
         tangential_stiffness_before(touch, c),
         elastic_force(touch, c),
     )
-    return frictional_losses(touch, elastic, k_t, k_before, before.xi, load, after.xi, dt, chosen, before_drag)
+    return frictional_losses(touch, elastic, k_t, k_before, before.xi, load, after.xi, chosen, before_drag)
 
 
 def stiffness(c: Moduli, radius: float, overlap: float) -> float:

@@ -31,7 +31,6 @@ from clast_plugins.contact_laws.hertz import (
     tangential_stiffness,
 )
 from clast_plugins.contact_laws.moduli import normal_modulus, tangential_modulus
-from clast_plugins.contact_laws.rolling import rolling
 
 
 class HertzKuwabaraKono(Params):
@@ -41,7 +40,6 @@ class HertzKuwabaraKono(Params):
     --------
     F_n = 4/3 E* √R* (δ^3/2 + 3/2 A √δ v_n) = 4/3 E* a δ + A k_n v_n,  k_n = 2 E* a,  a = √(R* δ)
     F_t = k_t (ξ + A v_t),  k_t = 8 G* a,  |F_t| ≤ μ F_lim
-    M_r = μ_r F_lim R* against the rolling
 
     Symbols
     -------
@@ -83,7 +81,6 @@ class Constants(NamedTuple):
     G: float
     A: float
     mu: float
-    mu_r: float
 
 
 def damping(params: HertzKuwabaraKono) -> bool:
@@ -94,12 +91,12 @@ def damping(params: HertzKuwabaraKono) -> bool:
 def constants(params: HertzKuwabaraKono, pair: MaterialPair) -> Constants:
     """Compute effective moduli of a pair of materials."""
     E, G = normal_modulus(pair), tangential_modulus(pair)
-    return Constants(E, G, params.dissipative_time, pair.sliding_friction, pair.rolling_friction)
+    return Constants(E, G, params.dissipative_time, pair.sliding_friction)
 
 
 def choices(params: HertzKuwabaraKono, features: Features) -> Choices:
     """Return what must be compiled."""
-    return Choices(*features, limit=LIMITS[params.coulomb_limit], tension_cutoff=params.tension_cutoff)
+    return Choices(features.damping, features.sliding, LIMITS[params.coulomb_limit], params.tension_cutoff)
 
 
 def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choices) -> tuple[ContactLoad, History]:
@@ -111,10 +108,7 @@ def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choice
     if chosen.sliding:
         k_t = tangential_stiffness(touch, c)
         F_t, xi = sliding(touch, k_t, c.A * k_t, c.mu * F_lim, history.xi, dt, chosen)
-    torque_i, torque_j = ZERO, ZERO
-    if chosen.rolling:
-        torque_i, torque_j = rolling(touch, c.mu_r, F_lim, dt, chosen.own_spin)
-    return ContactLoad(sub(scale(F_n, touch.normal), F_t), torque_i, torque_j), History(xi)
+    return ContactLoad(sub(scale(F_n, touch.normal), F_t), ZERO, ZERO, F_lim), History(xi)
 
 
 @hookimpl
@@ -123,7 +117,7 @@ def clast_register(registry: Registry) -> None:
     registry.contact_law(
         "hertz_kuwabara_kono",
         ContactLaw(
-            summary="viscoelastic spheres, whose restitution falls with speed; Coulomb sliding and rolling friction",
+            summary="viscoelastic spheres, whose restitution falls with speed; Coulomb sliding",
             Params=HertzKuwabaraKono,
             Constants=Constants,
             constants=constants,

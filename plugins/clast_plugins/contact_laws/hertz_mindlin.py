@@ -1,4 +1,4 @@
-"""Hertz–Mindlin contact with viscous damping, sliding and rolling friction."""
+"""Hertz–Mindlin contact with viscous damping and sliding friction."""
 
 from __future__ import annotations
 
@@ -33,17 +33,15 @@ from clast_plugins.contact_laws.hertz import (
     tangential_stiffness_before,
 )
 from clast_plugins.contact_laws.moduli import normal_modulus, tangential_modulus
-from clast_plugins.contact_laws.rolling import rolling
 
 
 class HertzMindlin(Params):
-    r"""Elastic spheres with Tsuji damping, Coulomb sliding and a constant rolling torque.
+    r"""Elastic spheres with Tsuji damping, and Coulomb sliding.
 
     Equation
     --------
     F_n = 4/3 E* √(R* δ) δ + c √(m* k_n) v_n,  k_n = 2 E* √(R* δ)
     F_t = k_t ξ + c √(m* k_t) v_t,  k_t = 8 G* √(R* δ),  |F_t| ≤ μ F_lim
-    M_r = μ_r F_lim R* against the rolling
 
     Symbols
     -------
@@ -58,8 +56,7 @@ class HertzMindlin(Params):
     Options
     -------
     ``coulomb_limit: musen`` limits the elastic part of F_t alone by the unclipped |F_n| and drops its damping while
-    sliding, as the paper's authors' program does: for comparison only. ``rolling: own_spin`` acts against each
-    particle's own spin as that program does: neither objective nor quiet at rest.
+    sliding, as the paper's authors' program does: for comparison only.
     ``tension_cutoff: true`` never lets F_n pull; the coefficient of restitution is then not e but larger.
     ``tangential_memory: displacement`` takes k_t ξ at the present overlap: pressing a stretched contact harder tightens
     its spring, which creates energy. ``force`` adds k_t dξ to a force that stays as k_t grows and is scaled by
@@ -72,7 +69,7 @@ class HertzMindlin(Params):
     Source
     ------
     Hertz (1882); Mindlin and Deresiewicz (1953); Tsuji, Tanaka and Ishida (1992), doi:10.1016/0032-5910(92)88030-L;
-    rolling: Ai et al. (2011), model A, doi:10.1016/j.powtec.2010.09.030; energy of the tangential spring: Elata and
+    energy of the tangential spring: Elata and
     Berryman (1996), Mechanics of Materials 24, 229–240; Thornton, Cummins and Cleary (2013),
     doi:10.1016/j.powtec.2012.08.012.
     """
@@ -85,9 +82,6 @@ class HertzMindlin(Params):
     tangential_memory: Annotated[
         Literal["displacement", "force"], Field(description="what a stretched contact keeps while it is pressed harder")
     ] = "displacement"
-    rolling: Annotated[
-        Literal["relative", "own_spin"], Field(description="the spin that rolling friction acts against")
-    ] = "relative"
 
 
 class Constants(NamedTuple):
@@ -98,7 +92,6 @@ class Constants(NamedTuple):
     c_n: float
     c_t: float
     mu: float
-    mu_r: float
 
 
 def constants(params: HertzMindlin, pair: MaterialPair) -> Constants:
@@ -111,17 +104,16 @@ def constants(params: HertzMindlin, pair: MaterialPair) -> Constants:
         c_n=c * sqrt(2.0 * E),
         c_t=c * sqrt(8.0 * G),
         mu=pair.sliding_friction,
-        mu_r=pair.rolling_friction,
     )
 
 
 def choices(params: HertzMindlin, features: Features) -> Choices:
     """Return what must be compiled."""
     return Choices(
-        *features,
-        limit=LIMITS[params.coulomb_limit],
-        tension_cutoff=params.tension_cutoff,
-        own_spin=params.rolling == "own_spin",
+        features.damping,
+        features.sliding,
+        LIMITS[params.coulomb_limit],
+        params.tension_cutoff,
         keeps_force=params.tangential_memory == "force",
     )
 
@@ -142,10 +134,7 @@ def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choice
         if chosen.keeps_force:
             xi_old = scale(easing(k_t, tangential_stiffness_before(touch, c), chosen), xi_old)
         F_t, xi = sliding(touch, k_t, c.c_t * root, c.mu * F_lim, xi_old, dt, chosen)
-    torque_i, torque_j = ZERO, ZERO
-    if chosen.rolling:
-        torque_i, torque_j = rolling(touch, c.mu_r, F_lim, dt, chosen.own_spin)
-    return ContactLoad(sub(scale(F_n, touch.normal), F_t), torque_i, torque_j), History(xi)
+    return ContactLoad(sub(scale(F_n, touch.normal), F_t), ZERO, ZERO, F_lim), History(xi)
 
 
 @hookimpl
@@ -154,7 +143,7 @@ def clast_register(registry: Registry) -> None:
     registry.contact_law(
         "hertz_mindlin",
         ContactLaw(
-            summary="elastic spheres with Tsuji damping, Coulomb sliding and rolling friction",
+            summary="elastic spheres with Tsuji damping, Coulomb sliding",
             Params=HertzMindlin,
             Constants=Constants,
             constants=constants,

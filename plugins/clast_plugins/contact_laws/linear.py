@@ -25,7 +25,6 @@ from clast_plugins.contact_laws.friction import (
     limiting_force,
     sliding,
 )
-from clast_plugins.contact_laws.rolling import rolling
 
 
 class Linear(Params):
@@ -35,7 +34,6 @@ class Linear(Params):
     --------
     F_n = k_n δ + 2 β √(m* k_n) v_n
     F_t = k_t ξ + 2 β √(m* k_t) v_t,  k_t = κ k_n,  |F_t| ≤ μ F_lim
-    M_r = μ_r F_lim R* against the rolling
 
     Symbols
     -------
@@ -81,19 +79,18 @@ class Constants(NamedTuple):
     c_n: float
     c_t: float
     mu: float
-    mu_r: float
 
 
 def constants(params: Linear, pair: MaterialPair) -> Constants:
     """Compute the damping of a pair of materials."""
     k_n, k_t = params.normal_stiffness, params.stiffness_ratio * params.normal_stiffness
     c = 2.0 * damping_ratio(pair.restitution)
-    return Constants(k_n, k_t, c * sqrt(k_n), c * sqrt(k_t), pair.sliding_friction, pair.rolling_friction)
+    return Constants(k_n, k_t, c * sqrt(k_n), c * sqrt(k_t), pair.sliding_friction)
 
 
 def choices(params: Linear, features: Features) -> Choices:
     """Return what must be compiled."""
-    return Choices(*features, limit=LIMITS[params.coulomb_limit], tension_cutoff=params.tension_cutoff)
+    return Choices(features.damping, features.sliding, LIMITS[params.coulomb_limit], params.tension_cutoff)
 
 
 def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choices) -> tuple[ContactLoad, History]:
@@ -104,10 +101,7 @@ def load(touch: Touch, c: Constants, history: History, dt: float, chosen: Choice
     F_t, xi = ZERO, history.xi
     if chosen.sliding:
         F_t, xi = sliding(touch, c.k_t, c.c_t * root, c.mu * F_lim, history.xi, dt, chosen)
-    torque_i, torque_j = ZERO, ZERO
-    if chosen.rolling:
-        torque_i, torque_j = rolling(touch, c.mu_r, F_lim, dt, chosen.own_spin)
-    return ContactLoad(sub(scale(F_n, touch.normal), F_t), torque_i, torque_j), History(xi)
+    return ContactLoad(sub(scale(F_n, touch.normal), F_t), ZERO, ZERO, F_lim), History(xi)
 
 
 def energy(touch: Touch, c: Constants, history: History, chosen: Choices) -> float:
@@ -130,7 +124,7 @@ def losses(
 ) -> ContactLosses:
     """Return what the contact has taken up since the forces before; no stiffness changes."""
     elastic = c.k_n * touch.overlap
-    return frictional_losses(touch, elastic, c.k_t, c.k_t, before.xi, load, after.xi, dt, chosen, before_drag)
+    return frictional_losses(touch, elastic, c.k_t, c.k_t, before.xi, load, after.xi, chosen, before_drag)
 
 
 def stiffness(c: Constants, radius: float, overlap: float) -> float:
@@ -144,7 +138,7 @@ def clast_register(registry: Registry) -> None:
     registry.contact_law(
         "linear",
         ContactLaw(
-            summary="springs of constant stiffness with dashpots, Coulomb sliding and rolling friction",
+            summary="springs of constant stiffness with dashpots, Coulomb sliding",
             Params=Linear,
             Constants=Constants,
             constants=constants,

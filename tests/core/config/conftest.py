@@ -20,6 +20,7 @@ def registry() -> Registry:
             (fakes.bond_model, "elastic", Elastic),
             (fakes.bond_kinematics, "total", Nothing),
             (fakes.contact_law, "hertz", Nothing),
+            (fakes.rolling_resistance, "constant_torque", Nothing),
             (fakes.integrator, "midstep", Nothing),
             (fakes.integrator, "leapfrog", Nothing),
             (fakes.neighbour_search, "linked_cells", Nothing),

@@ -36,6 +36,7 @@ def test_defaults_are_those_of_the_contract(load):
     assert scene.bonds.kinematics.name == "total"
     assert scene.neighbours.search.name == "linked_cells"
     assert scene.neighbours.skin == "auto"
+    assert scene.contacts.rolling.name == "constant_torque"
     assert scene.contacts.bonded_pairs is True
     assert (scene.output.samples, scene.output.frames, scene.output.force) == (500, 100, "instantaneous")
     assert scene.output.checkpoint == 600.0
@@ -222,8 +223,9 @@ def test_a_changed_scene_is_validated_and_leaves_the_first_alone(load):
 def test_every_part_a_scene_uses_is_listed_with_its_source(load):
     chosen = {f"{each.kind} {each.name}": each.source.origin for each in load().chosen}
     assert set(chosen) == {
-        "generator ball", "bond_kinematics total", "bond_model elastic", "contact_law hertz", "wall plane",
-        "motion moving", "integrator midstep", "neighbour_search linked_cells", "writer figure",
+        "generator ball", "bond_kinematics total", "bond_model elastic", "contact_law hertz",
+        "rolling_resistance constant_torque", "wall plane", "motion moving",
+        "integrator midstep", "neighbour_search linked_cells", "writer figure",
     }  # fmt: skip
     assert set(chosen.values()) == {"fake-distribution"}
 

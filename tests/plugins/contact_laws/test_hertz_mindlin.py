@@ -8,10 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from clast.maths.vec3 import add, cross, dot, norm, scale, sub
+from clast.maths.vec3 import add, dot, norm, scale
 from clast.parts.contact_law import ContactLoad, Features
 from clast_plugins.contact_laws.hertz_mindlin import History, energy, stiffness
-from clast_plugins.contact_laws.rolling import BRAKING_STEPS
 from tests.support.contacts import (
     DT,
     GLASS,
@@ -37,7 +36,6 @@ from tests.support.strategies import (
 
 ELASTIC_ONLY = Features(damping=False, sliding=False, rolling=False)
 each_limit = pytest.mark.parametrize("limit", LIMITS)
-each_rolling = pytest.mark.parametrize("rolling", ["relative", "own_spin"])
 
 
 def hertz(touch) -> float:
@@ -83,33 +81,28 @@ def test_force_and_stiffness_are_the_derivatives_of_the_energy(touch):
 
 
 @each_limit
-@each_rolling
 @settings(max_examples=40, deadline=None)
 @given(drawn=sliding_contacts())
-def test_swapping_the_bodies_mirrors_the_loads_to_the_bit(limit, rolling, drawn):
+def test_swapping_the_bodies_mirrors_the_loads_to_the_bit(limit, drawn):
     touch, xi = drawn
-    law = contact(coulomb_limit=limit, rolling=rolling)
+    law = contact(coulomb_limit=limit)
     told, kept = law.load(touch, xi)
     there, mirror = law.load(mirrored(touch), negated(xi))
-    assert there == ContactLoad(negated(told.force), told.torque_j, told.torque_i)
+    assert there == ContactLoad(negated(told.force), told.torque_j, told.torque_i, told.limit)
     assert mirror == negated(kept)
 
 
 @each_limit
-@each_rolling
 @settings(max_examples=40, deadline=None)
 @given(drawn=sliding_contacts(), q=rotations())
-def test_a_rotated_world_gives_rotated_loads(limit, rolling, drawn, q):
+def test_a_rotated_world_gives_rotated_loads(limit, drawn, q):
     touch, xi = drawn
-    law = contact(coulomb_limit=limit, rolling=rolling)
+    law = contact(coulomb_limit=limit)
     told, kept = law.load(touch, xi)
     there, turned_xi = law.load(turned(touch, q), turned(touch._replace(normal=xi), q).normal)
     # forces may be small differences of large ones
     assert_turned(there.force, told.force, q, norm(told.force) + hertz(touch), 1e-8)
     assert_turned(turned_xi, kept, q, norm(kept) + DT, 1e-8)
-    stopping = (norm(touch.spin_i) + norm(touch.spin_j)) / (BRAKING_STEPS * touch.inverse_inertia * DT)
-    for a, b in ((there.torque_i, told.torque_i), (there.torque_j, told.torque_j)):
-        assert_turned(a, b, q, norm(b) + stopping)
 
 
 @settings(max_examples=80, deadline=None)
@@ -191,43 +184,6 @@ def test_the_stored_tangential_energy_is_the_work_of_the_spring(touch, xi):
     k_t = 8.0 * c.G * math.sqrt(touch.radius * touch.overlap)
     size = energy(touch, c, History(slip), chosen)
     assert_close(stored, 0.5 * k_t * dot(slip, slip), 1e-13, size)
-
-
-@each_limit
-@settings(max_examples=60, deadline=None)
-@given(drawn=sliding_contacts(), mu=numbers(0.01, 1.0))
-def test_rolling_friction_is_equal_and_opposite_slows_the_rolling_and_never_reverses_it(limit, drawn, mu):
-    touch, xi = drawn
-    told, _ = contact(GLASS._replace(rolling_friction=mu), coulomb_limit=limit).load(touch, xi)
-    assert told.torque_i == negated(told.torque_j)
-    rolling = across(sub(touch.spin_j, touch.spin_i), touch.normal)
-    after = add(rolling, scale(touch.inverse_inertia * DT, told.torque_j))
-    assert dot(told.torque_j, rolling) <= 0.0
-    assert dot(after, rolling) >= -1e-12 * dot(rolling, rolling)
-    assert_close(cross(told.torque_j, rolling), REST, 1e-12, norm(told.torque_j) * norm(rolling) + 1e-300)
-
-
-@settings(max_examples=60, deadline=None)
-@given(touch=touches(), mu=numbers(0.01, 1.0))
-def test_the_rolling_torque_is_the_friction_unless_the_rolling_ends_first(touch, mu):
-    told, _ = contact(GLASS._replace(rolling_friction=mu)).load(touch)
-    rolling = across(sub(touch.spin_j, touch.spin_i), touch.normal)
-    stopping = norm(rolling) / (BRAKING_STEPS * touch.inverse_inertia * DT)
-    expected = min(mu * hertz(touch) * touch.radius, stopping)
-    assert norm(told.torque_i) == pytest.approx(expected, rel=1e-12, abs=1e-300)
-
-
-@settings(max_examples=40, deadline=None)
-@given(touch=touches())
-def test_rolling_by_own_spin_acts_against_each_particle_s_own_spin(touch):
-    told, _ = contact(rolling="own_spin").load(touch)
-    for torque, spin, radius in (
-        (told.torque_i, touch.spin_i, touch.radius_i),
-        (told.torque_j, touch.spin_j, touch.radius_j),
-    ):
-        size = 0.05 * hertz(touch) * radius
-        expected = scale(-size / norm(spin), spin) if norm(spin) > 0.0 else REST
-        assert_close(torque, expected, 1e-12, size + 1e-300)
 
 
 @settings(max_examples=40, deadline=None)

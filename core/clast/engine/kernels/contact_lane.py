@@ -54,6 +54,7 @@ from .slots import (
     RESTS,
     ROLLS,
     SPIN,
+    TURNS,
     VELOCITY_FORCES,
     carry_history,
     contact_energy,
@@ -112,10 +113,10 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
             scratch[(NORMAL + c) * LANES + lane] = pairs.history[k, c]
         for c in range(HISTORY):
             scratch[(HISTORY_BASE + c) * LANES + lane] = pairs.history[k, 3 + c]
+    if TURNS:
+        for c in range(3):
+            scratch[(TURNED + c) * LANES + lane] = particles.twist[j, W + c] - particles.twist[i, W + c]
     if CONTACT_LOSSES:
-        if ROLLS:
-            for c in range(3):
-                scratch[(TURNED + c) * LANES + lane] = particles.twist[j, W + c] - particles.twist[i, W + c]
         for c in range(DRAG_NUMBERS):
             scratch[(DRAG + c) * LANES + lane] = pairs.history[k, 3 + HISTORY + c]
 
@@ -156,7 +157,7 @@ def read_touch(scratch: Floats, lane: int, numbers: Numbers, dt: float) -> tuple
         moved = scale(dt, sub(vector(scratch, DRIFT, lane), rolled))
         share_moved = share_since_touch(moved, n, overlap)
         moved = scale(share_moved, moved)
-    turned = scale(dt, vector(scratch, TURNED, lane)) if CONTACT_LOSSES and ROLLS else ZERO
+    turned = scale(dt, vector(scratch, TURNED, lane)) if TURNS else ZERO
     touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia, moved, turned)
     return touch, lever_i, lever_j, share_moved
 

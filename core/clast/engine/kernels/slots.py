@@ -38,6 +38,7 @@ APPLIED_LOADS = False
 LEDGER = False
 REMEMBERS = False
 ROLLS = False
+TURNS = False
 CONTACT_LOSSES = False
 ORIENTATION = False
 SPIN = False

@@ -33,6 +33,7 @@ from .slots import (
     REMEMBERS,
     ROLLS,
     SPIN,
+    TURNS,
     VELOCITY_FORCES,
     carry_history,
     contact_load,
@@ -76,7 +77,7 @@ def wall_touch(
         inverse_mass=body[k, INVERSE_MASS],
         inverse_inertia=body[k, INVERSE_INERTIA],
         moved=moved,
-        turned=scale(-dt, row(particles.twist, k, W)) if CONTACT_LOSSES else ZERO,
+        turned=scale(-dt, row(particles.twist, k, W)) if TURNS else ZERO,
     )
     return touch, share_moved
 

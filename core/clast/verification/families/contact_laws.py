@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from clast.verification.case import Family
-from clast.verification.contact_cases import linear, unloading, viscoelastic
+from clast.verification.contact_cases import linear, rolling, unloading, viscoelastic
 
-TEXT = """One case for each contact law beside `hertz_mindlin`, and for its options, with the closed form that its
-authors gave. A law of another form is left out of them."""
+TEXT = """A case for each contact law beside `hertz_mindlin`, for its options and for what resists rolling, with the
+closed form that its authors gave. A law of another form is left out of them."""
 
-FAMILY = Family("contact_laws", "Contact laws one by one", TEXT, (linear.CASE, unloading.CASE, viscoelastic.CASE))
+FAMILY = Family(
+    "contact_laws", "Contact laws one by one", TEXT, (linear.CASE, unloading.CASE, viscoelastic.CASE, rolling.CASE)
+)

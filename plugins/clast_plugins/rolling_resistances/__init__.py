@@ -1,0 +1,1 @@
+"""Rolling resistances, one per file."""
