@@ -40,7 +40,7 @@ class Kelvin(BrittleBond):
     Source
     ------
     W. N. Findley, J. S. Lai, K. Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, North-Holland (1976),
-    Section 5.3; the springs and strengths are those of Rotter, Dosta, Düster (2023), Eqs. 3–8.
+    Chapter 5; the springs and strengths are those of Rotter, Dosta, Düster (2023), Eqs. 3–8.
     """
 
     retardation_time: Annotated[

@@ -46,7 +46,7 @@ class Timoshenko(BrittleBond):
 
     Source
     ------
-    Stiffness: J. S. Przemieniecki, Theory of Matrix Structural Analysis, McGraw-Hill (1968), Section 5.6; shear
+    Stiffness: J. S. Przemieniecki, Theory of Matrix Structural Analysis, McGraw-Hill (1968), Chapter 5; shear
     coefficient: G. R. Cowper (1966), Journal of Applied Mechanics 33, 335–340, doi:10.1115/1.3625046.
     """
 

@@ -1,6 +1,7 @@
 """Closed form of a Kelvin–Voigt bond between two bodies under a load that stays: a damped oscillator, pushed.
 
-Source: any textbook on vibrations; without inertia it is W. N. Findley, J. S. Lai, K. Onaran (1976), Section 5.3.
+Source: the step response of a damped oscillator; without inertia the creep of a Kelvin body, W. N. Findley, J. S. Lai,
+K. Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, North-Holland (1976), Chapter 5.
 """
 
 from __future__ import annotations
