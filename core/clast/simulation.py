@@ -242,7 +242,7 @@ class Simulation:
 
     def ledger(self) -> Ledger:
         """Return where all energy is now; losses are only known with ``output.ledger``."""
-        found = np.zeros(8)
+        found = np.zeros(9)
         self.kernel.energies(self.world, self.step > 0, found)
         return read_ledger(self.world, found)
 

@@ -79,7 +79,7 @@ class ContactPlan:
     @property
     def remembers(self) -> bool:
         """Whether the history of the law is stored."""
-        return self.features.sliding and self.law.History is not None
+        return self.law.History is not None and (self.features.sliding or self.law.yields)
 
     @property
     def history(self) -> int:
@@ -94,7 +94,8 @@ class ContactPlan:
 
     def turns(self, ledger: bool) -> bool:
         """Tell whether it matters how far bodies turn against each other."""
-        return self.rolling is not None and (ledger or self.rolling.History is not None)
+        wound = self.rolling is not None and self.rolling.History is not None
+        return wound or (ledger and self.features.rolling)
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,8 @@ class Ledger(NamedTuple):
         What tangential springs lose as contacts become softer and come apart, less what they gain as contacts become
         stiffer: Mindlin's tangential force is not the gradient of an energy.
     plastic, drops, broken : float
-        What bonds lost by flow, plastic or by damage, what their stress drops released, what breaking bonds still held.
+        What bonds lost by flow, plastic or by damage, and contacts by yielding; what bonds' stress drops released, what
+        breaking bonds still held.
     left : float
         What particles that left the domain took along, with their bonds.
     """
@@ -119,12 +120,12 @@ def read_ledger(world: World, energies: NDArray[np.float64]) -> Ledger:
     Parameters
     ----------
     world : World
-    energies : (8,) float64
+    energies : (9,) float64
         What the kernel's ``energies`` tells: what is stored, and what was lost and done since the last booking.
     """
     kinetic, contact_elastic, bond_elastic = energies[:3].tolist()
     booked = world.ledger.sum(axis=0)
-    booked[[VISCOUS, SLIDING, ROLLING, STIFFENING, WALL_WORK]] += energies[3:]
+    booked[[VISCOUS, SLIDING, ROLLING, STIFFENING, PLASTIC, WALL_WORK]] += energies[3:]
     return Ledger(
         walls=float(booked[WALL_WORK]),
         driven=float(booked[DRIVEN_WORK]),

@@ -11,7 +11,7 @@ from clast.engine.slots_pieces import bind, bind_record, function
 
 NAMES = (
     "contact_load contact_energy contact_losses read_contact_constants row_constants read_history write_history "
-    "carry_history fresh_history load_history store_history"
+    "carry_history fresh_history load_history store_history no_losses"
 )
 
 
@@ -48,7 +48,9 @@ def contacts_text(plan: Blueprint) -> str:
         ]
         laws.append("" if plan.ledger and law.losses is not None else "contact_losses = nothing")
     records = [bind_record(each.alias, each.type) for each in (*constants, *histories)]
-    return "\n".join([*laws, *records, *_readers(constants), *_history(histories)])
+    # records that are compiled have no defaults: each has as many fields as its law gives it
+    none = f"return ContactLosses(0.0, 0.0, 0.0, 0.0, NO_DRAG{', 0.0' if law.yields else ''})"
+    return "\n".join([*laws, function("no_losses", "", none), *records, *_readers(constants), *_history(histories)])
 
 
 def _law(contacts: ContactPlan, prefix: str, choices: str, ledger: bool) -> list[str]:
@@ -82,6 +84,7 @@ def _joined(contacts: ContactPlan) -> list[str]:
     before = "law_stiffness(constants[0], touch.radius, overlap_before(touch))" if stored else "0.0"
     stiff = "law_stiffness(constants[0], touch.radius, max(touch.overlap, 0.0))"
     wound = f" + rolling_energy(constants[1], history[1], touch.radius, {stiff})" if stored else ""
+    plastic = ", lost.plastic" if contacts.law.yields else ""
     pressing = f"pressing = Pressing(load.limit, {now}, {before})"
     return [
         function(
@@ -111,7 +114,7 @@ def _joined(contacts: ContactPlan) -> list[str]:
                 "more = rolling_losses(touch, constants[1], *ways, pressing, dt, choices[1], drag.torque)",
                 "rolling, stiffening = lost.rolling + more.rolling, lost.stiffening + more.stiffening",
                 "kept = Drag(lost.drag.force, more.drag)",
-                "return ContactLosses(lost.viscous, lost.sliding, rolling, stiffening, kept)",
+                f"return ContactLosses(lost.viscous, lost.sliding, rolling, stiffening, kept{plastic})",
             ],
         ),
     ]

@@ -68,7 +68,8 @@ class ContactLoad(NamedTuple):
     torque_i, torque_j : vector
         Torques beyond that force's own moment, in N m.
     limit : float
-        Normal force that limits friction, in N, at least 0: what a rolling resistance goes by.
+        Normal force that limits friction, in N, at least 0: what a rolling resistance goes by. Told by a law that
+        ``limits_rolling``.
     """
 
     force: Vec
@@ -103,6 +104,8 @@ class ContactLosses(NamedTuple):
     drag : Drag
         The force as it resists what the contact moves; the torque is kept with rolling friction only, and is the
         rolling resistance's own.
+    plastic : float
+        Work of what yields. Told by a law that ``yields``.
     """
 
     viscous: float
@@ -110,6 +113,7 @@ class ContactLosses(NamedTuple):
     rolling: float
     stiffening: float
     drag: Drag
+    plastic: float = 0.0
 
 
 class MaterialPair(NamedTuple):
@@ -162,7 +166,12 @@ class ContactLaw:
         Without it, a law damps where the coefficient of restitution of some pair is below 1.
     History : NamedTuple type or None
         What a contact remembers while it lasts, all 0 at touch; vectors are tangential and the engine carries them
-        with the contact plane. Stored only when sliding friction is present.
+        with the contact plane. Stored only when sliding friction is present, or where the law ``yields``.
+    yields : bool
+        Whether the normal force depends on the History; ``losses`` then tell what is ``plastic``.
+    limits_rolling : bool
+        Whether ``load`` tells the ``limit`` that a rolling resistance goes by; without it, rolling friction is the
+        law's own business.
     """
 
     summary: str
@@ -176,3 +185,5 @@ class ContactLaw:
     History: type | None = None
     losses: Callable[..., ContactLosses] | None = None
     damping: Callable[[Any], bool] | None = None
+    yields: bool = False
+    limits_rolling: bool = False

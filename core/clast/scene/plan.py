@@ -73,12 +73,13 @@ def _contact_plan(scene: Scene) -> ContactPlan | None:
         sliding=any(pair.sliding_friction > 0.0 for pair in pairs),
         rolling=any(pair.rolling_friction > 0.0 for pair in pairs),
     )
+    rolls = features.rolling and config.law.part.limits_rolling
     return ContactPlan(
         law=config.law.part,
         features=features,
         choices=config.law.part.choices(config.law.params, features),
-        rolling=config.rolling.part if features.rolling else None,
-        rolling_choices=config.rolling.part.choices(config.rolling.params) if features.rolling else None,
+        rolling=config.rolling.part if rolls else None,
+        rolling_choices=config.rolling.part.choices(config.rolling.params) if rolls else None,
         bonded_pairs=config.bonded_pairs,
         between_particles=len(scene.radius) > 1,
         one_material=len(set(scene.material.tolist())) == 1,

@@ -127,6 +127,7 @@ def clast_register(registry: Registry) -> None:
             stiffness=stiffness,
             History=History,
             losses=losses,
+            limits_rolling=True,
             damping=damping,
         ),
     )

@@ -148,5 +148,6 @@ def clast_register(registry: Registry) -> None:
             stiffness=stiffness,
             History=History,
             losses=losses,
+            limits_rolling=True,
         ),
     )

@@ -11,6 +11,7 @@ from clast.maths.vec3 import ZERO, add, dot, scale
 from clast.parts.contact_law import NO_DRAG, Features, Touch
 from clast.parts.examples import example
 from clast.plugins.discovery import discover
+from clast.testing.bits import same_bits
 from clast.testing.contacts import RADIUS, contact, resting
 from clast.testing.kit import try_part
 from tests.support.strategies import assert_close
@@ -43,7 +44,7 @@ def test_work_is_stored_or_lost(name, damping):
         taken = part.losses(touch, law.constants, history, told, kept, span / steps, law.choices, drag)
         done = -0.5 * dot(add(told.force, force), touch.moved)
         work, turnover = work + done, turnover + abs(done)
-        lost += sum(taken[:4])
+        lost += sum(taken[:4]) + taken.plastic
         history, drag, force = kept, taken.drag, told.force
     assert lost > 0.01 * turnover
     assert_close(work, law.energy(touch, history) + lost, 1e-4, turnover)
@@ -52,3 +53,26 @@ def test_work_is_stored_or_lost(name, damping):
 def moving(overlap: float, moved, dt: float) -> Touch:
     """Return the contact of two equal spheres that have moved against each other."""
     return resting(overlap)._replace(velocity=scale(1.0 / dt, moved), moved=moved)
+
+
+@every_law
+def test_what_is_told_as_lost_is_the_same_compiled(name):
+    part = REGISTRY.get("contact_law", name).part
+    law = contact(part, example(part.Params), Features(damping=True, sliding=True, rolling=False))
+    load, losses, choices, yields = part.load, part.losses, law.choices, part.yields
+
+    def sweep(numbers, constants, fresh, drag, out):
+        for k in range(len(numbers)):
+            overlap, x, z = numbers[k]
+            moved, velocity, none = (x, 0.0, z), (1e6 * x, 0.0, 1e6 * z), (0.0, 0.0, 0.0)
+            half, m, up = 0.5 * RADIUS, 1e8, (0.0, 0.0, 1.0)
+            touch = Touch(overlap, up, velocity, none, none, half, RADIUS, RADIUS, m, m, moved, none)
+            _, before = load(touch, constants, fresh, 1e-6, choices)
+            told, after = load(touch, constants, before, 1e-6, choices)
+            lost = losses(touch, constants, before, told, after, 1e-6, choices, drag)
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = lost.viscous, lost.sliding, lost.rolling, lost.stiffening
+            out[k, 4] = lost.plastic if yields else 0.0
+
+    rows = np.random.default_rng(5).normal(size=(200, 3)) * np.array([0.002, 1e-4, 1e-4]) * RADIUS
+    rows[:, 0] = np.abs(rows[:, 0]) + 1e-6 * RADIUS
+    same_bits(sweep, [load, losses], (200, 5), rows, law.constants, law.fresh, NO_DRAG)

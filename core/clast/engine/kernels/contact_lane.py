@@ -28,6 +28,7 @@ from .layout import (
     LOST,
     MATERIAL,
     NORMAL,
+    PLASTIC,
     RADIUS,
     REST,
     RI,
@@ -56,6 +57,7 @@ from .slots import (
     SPIN,
     TURNS,
     VELOCITY_FORCES,
+    YIELDS,
     carry_history,
     contact_energy,
     contact_load,
@@ -211,6 +213,8 @@ def contact_lane(scratch: Floats, lane: int, shared: Any, numbers: Numbers, dt: 
         scratch[(LOST + 1) * LANES + lane] = lost.sliding
         scratch[(LOST + 2) * LANES + lane] = lost.rolling
         scratch[(LOST + 3) * LANES + lane] = lost.stiffening
+        if YIELDS:
+            scratch[(LOST + 4) * LANES + lane] = lost.plastic
         put(scratch, DRAG, lane, lost.drag.force)
         if ROLLS:
             put(scratch, DRAG + 3, lane, lost.drag.torque)
@@ -239,5 +243,7 @@ def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: i
         if sides & FIRST:
             for term in range(4):
                 book[term] += scratch[(LOST + term) * LANES + lane]
+            if YIELDS:
+                book[PLASTIC] += scratch[(LOST + 4) * LANES + lane]
     if REMEMBERS:
         pairs.touching[k] = 1

@@ -9,7 +9,7 @@ import numpy as np
 from clast.engine.compiler import compiled, inlined, routine
 from clast.engine.state import Floats, Indices, Numbers, Pairs, Particles, WallPairs, Walls, World
 from clast.maths.vec3 import dot, scale, sub
-from clast.parts.contact_law import NO_DRAG, ContactLosses, Drag, Touch
+from clast.parts.contact_law import NO_DRAG, Drag, Touch
 
 from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
@@ -51,6 +51,7 @@ from .slots import (
     ORIENTATION,
     STAGES,
     WALLS,
+    YIELDS,
     bond_energy,
     bond_flow,
     bond_measure,
@@ -60,6 +61,7 @@ from .slots import (
     contact_losses,
     fresh_history,
     load_history,
+    no_losses,
     read_bond_state,
     read_constants,
     read_contact_constants,
@@ -78,8 +80,8 @@ SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 CONTACT_ENERGY = CONTACT_F
 """Slot of the energy of a lane's contact, where its force is not computed."""
 
-LATEST, WALLS_DID = 3, 4
-"""Where losses since the last force evaluation begin among the energies, and the place of the work of walls there."""
+LATEST, YIELDED, WALLS_DID = 3, 4, 5
+"""Where losses since the last force evaluation begin among the energies; there, the places of yielding and of walls."""
 
 
 @compiled
@@ -87,14 +89,14 @@ def energies(world: World, moving: bool, found: Floats) -> None:
     """Add the energies in J to ``found``: kinetic, of contacts, of bonds; at the time that velocities belong to.
 
     What contacts dissipate and walls do since the last force evaluation, after which nothing is booked, follows: the
-    losses in the order of ``ContactLosses``, the work of walls.
+    losses of dashpots, sliding, rolling, stiffening and yielding, the work of walls.
 
     Parameters
     ----------
     world : World
     moving : bool
         Whether a step was taken; else nothing has moved since the forces.
-    found : (8,) float64
+    found : (9,) float64
         Zeros.
     """
     back = -LAG * world.numbers.dt
@@ -188,7 +190,7 @@ def energy_of_lane(data: Floats, scratch: Floats, lane: int, uniforms: tuple[flo
 @inlined
 def energy_of(touch: Touch, constants, history, time: float, drag: Drag):  # type: ignore[no-untyped-def]
     """Return the elastic energy of a contact some time after its forces were evaluated, and what it has lost since."""
-    since = ContactLosses(0.0, 0.0, 0.0, 0.0, NO_DRAG)
+    since = no_losses()
     if time > 0.0:
         load, kept = contact_load(touch, constants, history, time, CHOICES)
         if CONTACT_LOSSES:
@@ -234,7 +236,7 @@ def add_block(
         energy_of_pair(scratch, lane, shared, numbers, time)
     for lane in range(count):
         total += scratch[CONTACT_ENERGY * LANES + lane]
-        for term in range(4):
+        for term in range(5):
             lost[term] += scratch[(LOST + term) * LANES + lane]
     return total
 
@@ -254,6 +256,7 @@ def energy_of_pair(scratch: Floats, lane: int, shared: Any, numbers: Numbers, ti
     scratch[(LOST + 1) * LANES + lane] = since.sliding
     scratch[(LOST + 2) * LANES + lane] = since.rolling
     scratch[(LOST + 3) * LANES + lane] = since.stiffening
+    scratch[(LOST + 4) * LANES + lane] = since.plastic if YIELDS else 0.0
 
 
 @inlined
@@ -281,4 +284,6 @@ def wall_energy(
     lost[SLIDING] += since.sliding
     lost[ROLLING] += since.rolling
     lost[STIFFENING] += since.stiffening
+    if YIELDS:
+        lost[YIELDED] += since.plastic
     return energy  # type: ignore[no-any-return]

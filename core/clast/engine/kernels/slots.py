@@ -39,6 +39,7 @@ LEDGER = False
 REMEMBERS = False
 ROLLS = False
 TURNS = False
+YIELDS = False
 CONTACT_LOSSES = False
 ORIENTATION = False
 SPIN = False
@@ -58,5 +59,5 @@ bond_overload = bond_on_event = bond_beyond = nothing
 read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
 contact_load = contact_energy = contact_losses = read_contact_constants = row_constants = nothing
-read_history = write_history = carry_history = fresh_history = load_history = store_history = nothing
+read_history = write_history = carry_history = fresh_history = load_history = store_history = no_losses = nothing
 wall_nearest = wall_velocity = wall_answer = body_acceleration = nothing

@@ -13,6 +13,7 @@ from .layout import (
     INVERSE_INERTIA,
     INVERSE_MASS,
     MATERIAL,
+    PLASTIC,
     RADIUS,
     ROLLING,
     SLIDING,
@@ -35,6 +36,7 @@ from .slots import (
     SPIN,
     TURNS,
     VELOCITY_FORCES,
+    YIELDS,
     carry_history,
     contact_load,
     contact_losses,
@@ -149,6 +151,8 @@ def sweep_walls(
             book[SLIDING] += lost.sliding
             book[ROLLING] += lost.rolling
             book[STIFFENING] += lost.stiffening
+            if YIELDS:
+                book[PLASTIC] += lost.plastic
             for c in range(3):
                 pairs.history[p, 3 + HISTORY + c] = lost.drag.force[c]
                 if ROLLS:

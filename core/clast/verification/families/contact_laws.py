@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from clast.verification.case import Family
-from clast.verification.contact_cases import linear, rolling, unloading, viscoelastic
+from clast.verification.contact_cases import linear, plastic, rolling, unloading, viscoelastic
 
 TEXT = """A case for each contact law beside `hertz_mindlin`, for its options and for what resists rolling, with the
 closed form that its authors gave. A law of another form is left out of them."""
 
 FAMILY = Family(
-    "contact_laws", "Contact laws one by one", TEXT, (linear.CASE, unloading.CASE, viscoelastic.CASE, rolling.CASE)
+    "contact_laws",
+    "Contact laws one by one",
+    TEXT,
+    (linear.CASE, unloading.CASE, viscoelastic.CASE, plastic.CASE, rolling.CASE),
 )
