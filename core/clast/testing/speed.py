@@ -77,6 +77,8 @@ def _pressed_grain(entry: Registered, params: Params, folder: Path) -> Any:
 
     chosen: Mapping[str, Any] = {"type": entry.name} | plain_data(params, folder)
     scene = _scene(entry.kind, chosen)
+    if entry.kind == "contact_law" and entry.part.damping is not None:  # it has no restitution then
+        del scene["contacts"]["pairs"]["default"]["restitution"]
     if not entry.source.version:
         scene["plugins"] = [entry.source.origin]
     simulation = Simulation(from_mapping(scene), 1)
