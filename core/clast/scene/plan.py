@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
+from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
 from clast.engine.chunks import cut
 from clast.engine.records import fields, leaves
@@ -20,8 +21,15 @@ from clast.scene.scene import Scene
 
 
 def blueprint(scene: Scene) -> Blueprint:
-    """Return what must be compiled for a scene."""
+    """Return what must be compiled for a scene.
+
+    Raises
+    ------
+    ConfigError
+        Energies shall be booked that the integrator does not let one book.
+    """
     config = scene.config
+    refuse_ledger(config)
     return Blueprint(
         integrator=config.integrator.part,
         bonds=_bond_plan(scene),
@@ -34,6 +42,23 @@ def blueprint(scene: Scene) -> Blueprint:
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
         curved_walls=not all(wall.flat for wall in config.walls.values()),
     )
+
+
+def refuse_ledger(config: SceneConfig) -> None:
+    """Refuse an energy ledger with an integrator that evaluates forces several times a step.
+
+    What forces do along a way that goes back and forth is no sum over evaluations that would close.
+
+    Raises
+    ------
+    ConfigError
+    """
+    if config.output.ledger and len(config.integrator.part.stages) > 1:
+        raise config.problem(
+            ("output", "ledger"),
+            f"the integrator {config.integrator.name!r} evaluates forces {len(config.integrator.part.stages)} times a "
+            "step, and energies can be booked only where it is once; take another integrator, or ledger: false",
+        )
 
 
 def distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:

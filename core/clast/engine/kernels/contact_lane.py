@@ -198,7 +198,7 @@ def contact_lane(scratch: Floats, lane: int, shared: Any, numbers: Numbers, dt: 
     if HISTORY > 0:
         spin = 0.5 * (dot(touch.spin_i, n) + dot(touch.spin_j, n)) * dt
         history = carry_history(history, vector(scratch, NORMAL, lane), n, spin)
-    load, kept = contact_load(touch, constants, history, dt, CHOICES)
+    load, kept = contact_load(touch, constants, history, abs(dt), CHOICES)  # some schemes step back
     put(scratch, CONTACT_F, lane, load.force)
     if SPIN:
         arm = cross(n, load.force)

@@ -35,6 +35,7 @@ from .slots import (
     BODY_FORCES,
     ORIENTATION,
     SPIN,
+    STAGES,
     VELOCITY_FORCES,
     body_acceleration,
     wall_answer,
@@ -132,6 +133,12 @@ def move_before_forces(
 
 
 @inlined
+def half_kick(dt: float) -> float:
+    """Return the time in s by which the mean velocities of two steps differ from that between them, 0 if several."""
+    return 0.5 * dt if len(STAGES) == 1 else 0.0
+
+
+@inlined
 def body_force(particles: Particles, k: int, numbers: Numbers, time: float) -> Vec:
     """Return the acceleration of particle k by body forces."""
     acceleration: Vec = body_acceleration(numbers.body, row(particles.pose, k, X), row(particles.seen, k, V), time)
@@ -143,9 +150,10 @@ def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: floa
     """Book the work on particle k, since the forces before, of body forces, applied loads, and what drives it.
 
     Velocities are those at the force evaluation, half a step of acceleration after the kick before it: with them the
-    work of all forces together is the change of the kinetic energy, to the rounding.
+    work of all forces together is the change of the kinetic energy, to the rounding. Schemes with several evaluations
+    a step have no such velocity: theirs are those with which the way was made.
     """
-    half = 0.5 * numbers.dt
+    half = half_kick(numbers.dt)
     v = add(row(particles.twist, k, V), scale(half, row(particles.acceleration, k, F)))
     w = add(row(particles.twist, k, W), scale(half, row(particles.acceleration, k, M)))
     if APPLIED_LOADS:

@@ -136,7 +136,7 @@ def sweep_walls(
             spin = 0.5 * dot(touch.spin_i, n) * dt
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
         constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
-        load, kept = contact_load(touch, constants, history, dt, CHOICES)
+        load, kept = contact_load(touch, constants, history, abs(dt), CHOICES)  # some schemes step back
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if CURVED_WALLS:
             walls.pressing[w] += dot(load.force, n)

@@ -50,7 +50,16 @@ FINEST = 6.25e-9
 """Step in s of the run that takes the place of the exact one."""
 
 ORDER = 2.0
-"""Of all of Clast's integrators."""
+"""Of the integrators above."""
+
+SMOOTH_STEPS = (40, 80, 160)
+"""Steps to the end of what is watched of the bonded pair."""
+
+SMOOTH_FINEST = 1280
+"""Steps of the run that takes the place of the exact one, with the installed integrator of the highest order."""
+
+SMOOTH_END = 4e-5
+"""How long the pair is watched, in s."""
 
 
 def judge_limit(bench: Bench) -> Findings:
@@ -128,13 +137,38 @@ def run(bench: Bench, integrator: str, dt: float) -> Simulation:
     return bench.run(strong | lossless | {"integrator": integrator, "time.step": dt, "time.end": {"time": 4e-4}})
 
 
+def judge_smooth(bench: Bench) -> Findings:
+    """Halve the step twice where no contact and no dashpot spoils the order: for every order but the second."""
+    registry = bench.scene().registry
+    orders = {name: registry.get("integrator", name).part.order for name in registry.names("integrator")}
+    exact = motion(bench, max(orders, key=lambda name: orders[name]), SMOOTH_FINEST)
+    steps, lines = np.array(SMOOTH_STEPS), []
+    for integrator, order in orders.items():
+        if order == ORDER:
+            continue
+        errors = np.array([np.abs(motion(bench, integrator, n) - exact).max() for n in SMOOTH_STEPS])
+        got = -float(np.polyfit(np.log(steps), np.log(errors), 1)[0])
+        yield Finding(f"{integrator}: order where forces are smooth", float(order), got, 0.1, True)
+        lines.append(Line(integrator, steps, errors, dots=True))
+        lines.append(Line(f"order {order}", steps, errors[0] * (steps / steps[0]) ** -float(order)))
+    yield Sketch("a bonded pair that spins and vibrates", "steps", "error, share", tuple(lines), logarithmic=True)
+
+
+def motion(bench: Bench, integrator: str, steps: int) -> Floats:
+    """Return positions and velocities of the pair at the end, as shares of the largest."""
+    simulation = bench.run({"integrator": integrator, "time.step": SMOOTH_END / steps, "time.end": {"steps": steps}})
+    told = (position(simulation), velocity(simulation))
+    return np.concatenate([each / np.abs(each).max() for each in told])
+
+
 FAMILY = Family(
     "time_steps",
     "Time steps",
     "A small bonded grain is nudged: below the largest stable step nothing comes of it, above it the nudge grows. That "
     "step is where the dense matrix of all bonds and their dashpots says, and where Clast finds it without one. "
     "Below it errors fall with the square of the step: two bonded cubes collide without losses, and the run with a "
-    "step of 6.25 ns takes the place of the exact one.",
+    "step of 6.25 ns takes the place of the exact one. Integrators of another order than the second show it on a "
+    "bonded pair that spins and vibrates without contacts: there forces are smooth.",
     (
         Case(
             "step_limit",
@@ -151,6 +185,14 @@ FAMILY = Family(
             "second order: E. Hairer, C. Lubich and G. Wanner (2003), Geometric numerical integration illustrated by "
             "the Störmer-Verlet method, Acta Numerica 12",
             (needs.hertzian,),
+        ),
+        Case(
+            "step_smooth",
+            "orders where forces are smooth",
+            "rotation_pair",
+            judge_smooth,
+            "the order that the integrator tells: Omelyan, Mryglod and Folk (2002), Computer Physics Communications "
+            "146, for PEFRL; Hairer, Lubich and Wanner (2003) for symplectic Euler",
         ),
     ),
 )
