@@ -12,7 +12,7 @@ from clast.config.sections import StepRule
 from clast.engine.damped_step import stable_step
 from clast.engine.time_step import asked_step, bond_limit, contact_limit, local_limit, pair_limit, rayleigh_limit
 from clast.parts.generator import Estimate
-from clast.scene.plan import bond_stiffness, damping_coefficients
+from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients
 from clast.scene.scatter import Factors, draw_factors, scatter_entries
 from clast.scene.scene import Scene
 
@@ -85,7 +85,7 @@ def packed_limit(sample: Scene, coordination: float) -> float:
         turning = coordination / 3.0 * (2.0 * shear * lever**2 + torsion + 2.0 * bending) / inertia
         return 2.0 * max(float(np.max(moving)), float(np.max(turning)))
 
-    return stable_step(eigenvalue, sample.config.integrator.part.damping_factor)
+    return stable_step(eigenvalue, blueprint(sample).damping_factor)
 
 
 def step_notes(config: SceneConfig, packed: bool, bonded: bool, scattered: bool) -> tuple[str, ...]:

@@ -40,6 +40,7 @@ BANDS = (
     Band("sliding and rolling", "#5aae61", ("sliding", "rolling", "contact_stiffening")),
     Band("dashpots of contacts", "#a6dba0", ("contact_viscous",)),
     Band("dashpots of bonds", "#c2a5cf", ("bond_viscous",)),
+    Band("damping of motion", "#dfc27d", ("braked",)),
     Band("left with particles", "#bababa", ("left",)),
 )
 WORK = ("start", "walls", "driven", "applied", "body", "woken")
@@ -99,7 +100,7 @@ def _top(work: NDArray[np.float64]) -> float:
 
 def _draw(axes: Any, x: NDArray[np.float64], label: str, energy: Energies) -> None:
     work = _work(energy)
-    bands = {band: sum((energy[name] for name in band.terms), np.zeros_like(work)) for band in BANDS}
+    bands = {band: sum((energy[name] for name in band.terms if name in energy), np.zeros_like(work)) for band in BANDS}
     top = _top(work)
     shown = {band: values for band, values in bands.items() if np.abs(values).max() > SMALL * top}
     scale, unit = unit_of(top)

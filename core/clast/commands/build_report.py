@@ -179,6 +179,7 @@ def features(plan: Blueprint) -> list[tuple[str, bool, str]]:
         ("walls", bool(plan.walls), names or "planes, cylinders"),
         ("moving walls", bool(plan.motions), "velocities of walls"),
         ("body forces", bool(plan.body_forces), "gravity and others"),
+        ("damping of motion", plan.damping is not None, "what brakes every particle"),
         ("applied loads", plan.applied_loads, "constant forces and torques on particles"),
         ("orientations", plan.orientation, "a quaternion a particle"),
         ("spins", plan.spin, "rotation of particles"),

@@ -77,6 +77,9 @@ class SceneConfig(Params):
         None
     )
     integrator: Annotated[Chosen, PartOf("integrator"), Field(description="Time integrator")] = default_part("midstep")
+    damping: Annotated[Chosen, PartOf("damping")] | None = Field(
+        default=None, description="What brakes all particles, so that they come to rest; by default nothing does"
+    )
     neighbours: Annotated[NeighbourChoice, NEIGHBOURS, Field(description="How neighbours are found")] = Field(
         default_factory=dict, validate_default=True
     )

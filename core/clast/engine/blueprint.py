@@ -10,6 +10,7 @@ from clast.engine.records import width
 from clast.parts.bond_kinematics import BondKinematics
 from clast.parts.bond_model import BondModel
 from clast.parts.contact_law import ContactLaw, Features
+from clast.parts.damping import Damping
 from clast.parts.integrator import Integrator
 from clast.parts.rolling_resistance import RollingResistance
 from clast.parts.wall import BodyForce, Motion, Wall
@@ -104,7 +105,7 @@ class Blueprint:
 
     ``applied_loads`` is whether a constant force or torque acts on some particle, ``ledger`` whether energies are
     booked, ``chunked`` whether the scene is cut into chunks that threads can share, ``curved_walls`` whether some wall
-    is not flat.
+    is not flat, ``step_share`` what the damping of motion leaves of the stable step.
     """
 
     integrator: Integrator
@@ -117,6 +118,12 @@ class Blueprint:
     ledger: bool = False
     chunked: bool = False
     curved_walls: bool = False
+    damping: Damping | None = None
+    step_share: float = 1.0
+
+    def damping_factor(self, zeta: float) -> float:
+        """Return the stable step of an oscillator with damping ratio ζ as a share of 2/ω: of integrator and damping."""
+        return self.step_share * self.integrator.damping_factor(zeta)
 
     @property
     def answering(self) -> bool:
@@ -150,7 +157,7 @@ class Blueprint:
         """Whether any force depends on velocities."""
         damped_contacts = self.contacts is not None and (self.contacts.features.damping or self.friction)
         damped_bonds = self.bonds is not None and self.bonds.damping
-        return damped_contacts or damped_bonds or bool(self.body_forces)
+        return damped_contacts or damped_bonds or bool(self.body_forces) or self.damping is not None
 
     @property
     def history(self) -> int:
@@ -187,6 +194,7 @@ class Blueprint:
         found += [wall.nearest for wall in self.walls]
         found += [function for motion in self.motions for function in (motion.velocity, motion.answer)]
         found += [force.acceleration for force in self.body_forces]
+        found += [self.damping.braking] if self.damping is not None else []
         return [function for function in found if function is not None]
 
 

@@ -15,6 +15,7 @@ from clast.engine.kernels.layout import (
     APPLIED_WORK,
     BODY_WORK,
     BOND_VISCOUS,
+    BRAKED,
     BROKEN,
     DRIVEN_WORK,
     DROPS,
@@ -54,6 +55,8 @@ class Ledger(NamedTuple):
     plastic, drops, broken : float
         What bonds lost by flow, plastic or by damage, and contacts by yielding; what bonds' stress drops released, what
         breaking bonds still held.
+    braked : float
+        What the damping of motion took.
     left : float
         What particles that left the domain took along, with their bonds.
     """
@@ -75,6 +78,7 @@ class Ledger(NamedTuple):
     plastic: float
     drops: float
     broken: float
+    braked: float
     left: float
 
     @property
@@ -96,7 +100,7 @@ class Ledger(NamedTuple):
     def dissipated(self) -> float:
         """What is gone: all heat and all energy set free."""
         contacts = self.contact_viscous + self.sliding + self.rolling + self.contact_stiffening
-        return contacts + self.bond_viscous + self.plastic + self.drops + self.broken + self.left
+        return contacts + self.bond_viscous + self.plastic + self.drops + self.broken + self.braked + self.left
 
     @property
     def error(self) -> float:
@@ -144,5 +148,6 @@ def read_ledger(world: World, energies: NDArray[np.float64]) -> Ledger:
         plastic=float(booked[PLASTIC]),
         drops=float(booked[DROPS]),
         broken=float(booked[BROKEN]),
+        braked=float(booked[BRAKED]),
         left=float(booked[LEFT]),
     )

@@ -36,7 +36,7 @@ def with_heavier_particles(scene: Scene, step: float) -> Scene:
         If no such masses are found.
     """
     plan = blueprint(scene)
-    factor = plan.integrator.damping_factor
+    factor = plan.damping_factor
     most, per_time = (2.0 * factor(0.0) / step) ** 2, sensitivity(factor) / step
     for _ in range(MOST):
         bounds = local_bounds(springs_at_start(scene, plan), bodies_at_start(scene), per_time)

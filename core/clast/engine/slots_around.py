@@ -1,4 +1,4 @@
-"""The text of what surrounds the particles of a scene: walls, their motions, body forces."""
+"""The text of what surrounds the particles of a scene: walls, their motions, body forces, damping of motion."""
 
 from __future__ import annotations
 
@@ -47,3 +47,13 @@ def body_text(plan: Blueprint) -> str:
         total = f"add({total}, acceleration_{k}({construct(force.Numbers, f'Numbers{k}', values)}, x, v, time))"
     lines.append(function("body_acceleration", "row, x, v, time", f"return {total}"))
     return "\n".join(lines)
+
+
+def damping_text(plan: Blueprint) -> str:
+    """Return what binds the damping of motion of a scene."""
+    if plan.damping is None:
+        return "braking = nothing"
+    values = [f"row[{n}]" for n in range(width(plan.damping.Numbers))]
+    lines = [bind("brake", plan.damping.braking), bind_record("Brake", plan.damping.Numbers)]
+    text = f"return brake({construct(plan.damping.Numbers, 'Brake', values)}, acceleration, velocity)"
+    return "\n".join([*lines, function("braking", "row, acceleration, velocity", text)])

@@ -7,7 +7,7 @@ from itertools import accumulate
 from clast.engine.blueprint import Blueprint, BondPlan
 from clast.engine.kernels.layout import BOND_SLOTS
 from clast.engine.records import construct, destruct, width
-from clast.engine.slots_around import body_text, walls_text
+from clast.engine.slots_around import body_text, damping_text, walls_text
 from clast.engine.slots_contacts import contacts_text
 from clast.engine.slots_pieces import bind, bind_record, function
 
@@ -42,6 +42,7 @@ def slots_text(plan: Blueprint) -> str:
         contacts_text(plan),
         walls_text(plan),
         body_text(plan),
+        damping_text(plan),
     ]
     return "\n\n".join(part.strip("\n") for part in parts) + "\n"
 
@@ -87,6 +88,7 @@ def _flags(plan: Blueprint) -> str:
         "CURVED_WALLS": plan.curved_walls,
         "ANSWERING": plan.answering,
         "BODY_FORCES": bool(plan.body_forces),
+        "BRAKES": plan.damping is not None,
         "APPLIED_LOADS": plan.applied_loads,
         "LEDGER": plan.ledger,
         "ROLLS": contacts is not None and contacts.features.rolling,

@@ -121,6 +121,7 @@ class Numbers(NamedTuple):
     bond_uniforms: Floats
     contact_table: Floats
     body: Floats
+    braking: Floats
     dt: float
     seed: int
     wall_reach2: float  # squared displacement of a wall at which its neighbours go stale

@@ -51,7 +51,7 @@ class StepKeeper:
 
     def __init__(self, scene: Scene, plan: Blueprint) -> None:
         self.scene, self.plan = scene, plan
-        self.factor = plan.integrator.damping_factor
+        self.factor = plan.damping_factor
         self.sensitivity = sensitivity(self.factor)
         self.responses = contact_responses(scene, plan)
         self.bonded_pairs_touch = plan.contacts is not None and plan.contacts.bonded_pairs

@@ -71,7 +71,7 @@ def limits(scene: Scene, plan: Blueprint) -> Limits:
 
     bodies, springs = bodies_at_start(scene), springs_at_start(scene, plan)
     bonds = bond_springs(scene, bodies, np.ones(len(scene.ends), bool))
-    factor = plan.integrator.damping_factor
+    factor = plan.damping_factor
     return Limits(
         rayleigh=rayleigh_limit(scene),
         bond=bond_limit(scene),
@@ -87,7 +87,7 @@ def local_limit(scene: Scene) -> float:
     from clast.engine.springs import bodies_at_start, springs_at_start
 
     plan = blueprint(scene)
-    return _local(springs_at_start(scene, plan), bodies_at_start(scene), plan.integrator.damping_factor)
+    return _local(springs_at_start(scene, plan), bodies_at_start(scene), plan.damping_factor)
 
 
 def _local(springs: Springs, bodies: Bodies, factor: Callable[[float], float]) -> float:
@@ -168,7 +168,7 @@ def pair_limit(scene: Scene) -> float:
         return np.inf
     inverse_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)[scene.ends].sum(axis=1)
     k, c = bond_stiffness(scene).axial, damping_coefficients(scene)[:, 0]
-    factor = scene.config.integrator.part.damping_factor
+    factor = blueprint(scene).damping_factor
     return stable_step(lambda per_time: float(np.max((k + per_time * c) * inverse_mass)), factor)
 
 

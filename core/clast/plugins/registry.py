@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from clast.parts.bond_kinematics import BondKinematics
     from clast.parts.bond_model import BondModel
     from clast.parts.contact_law import ContactLaw
+    from clast.parts.damping import Damping
     from clast.parts.generator import Generator
     from clast.parts.integrator import Integrator
     from clast.parts.neighbour_search import NeighbourSearch
@@ -33,6 +34,7 @@ KINDS = (
     "contact_law",
     "rolling_resistance",
     "integrator",
+    "damping",
     "neighbour_search",
     "wall",
     "motion",
@@ -184,6 +186,10 @@ class Registry:
     def integrator(self, name: str, part: Integrator) -> None:
         """Register a time integrator."""
         self.add("integrator", name, part)
+
+    def damping(self, name: str, part: Damping) -> None:
+        """Register a damping of motion."""
+        self.add("damping", name, part)
 
     def neighbour_search(self, name: str, part: NeighbourSearch) -> None:
         """Register a neighbour search."""

@@ -40,6 +40,8 @@ def blueprint(scene: Scene) -> Blueprint:
         applied_loads=len(applied_loads(scene)) > 0,
         ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
+        damping=config.damping.part if config.damping is not None else None,
+        step_share=step_share(config.damping),
         curved_walls=not all(wall.flat for wall in config.walls.values()),
     )
 
@@ -59,6 +61,11 @@ def refuse_ledger(config: SceneConfig) -> None:
             f"the integrator {config.integrator.name!r} evaluates forces {len(config.integrator.part.stages)} times a "
             "step, and energies can be booked only where it is once; take another integrator, or ledger: false",
         )
+
+
+def step_share(damping: Chosen | None) -> float:
+    """Return the share of the stable step that a damping of motion leaves."""
+    return 1.0 if damping is None else float(damping.part.step_share(damping.params))
 
 
 def distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:

@@ -83,10 +83,12 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, particles: Particl
         for value in numbers(chosen.part.numbers(chosen.params, config.time.mass_scaling))
     ]
     seed = getattr(config.bonds.model.params, "seed", 0) if config.bonds else 0
+    damping = config.damping
     return Numbers(
         bond_uniforms=uniforms,
         contact_table=_contact_table(scene, plan),
         body=np.array(body, float),
+        braking=np.array(numbers(damping.part.numbers(damping.params)) if damping is not None else [], float),
         dt=dt,
         seed=int(seed),
         wall_reach2=(0.5 * skin) ** 2,

@@ -13,6 +13,7 @@ from clast.verification.families import (
     bond_models,
     bonds,
     contact_laws,
+    damping,
     impacts,
     oblique_impacts,
     rotations,
@@ -37,6 +38,7 @@ FAMILIES: tuple[Family, ...] = (
     beams.FAMILY,
     rotations.FAMILY,
     waves.FAMILY,
+    damping.FAMILY,
     time_steps.FAMILY,
     whole_runs.FAMILY,
 )

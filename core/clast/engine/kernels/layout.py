@@ -31,12 +31,13 @@ D, RI, RJ, IM, II, REST, DV, WI, WJ, NORMAL = 0, 3, 4, 5, 6, 7, 8, 11, 14, 17
 CONTACT_F, CONTACT_MI, CONTACT_MJ, DRIFT, TURNING, LOST, DRAG, TURNED, CONTACT_FREE = 20, 23, 26, 29, 32, 35, 40, 46, 49
 
 # energy ledger, in J: what contacts (in the order of ContactLosses) and bonds dissipate, the work done on the scene,
-# what left with particles, what was there at the start, and what contacts hold that appear as bonds break
+# what left with particles, what was there at the start, what contacts hold that appear as bonds break, and what the
+# damping of motion took
 VISCOUS, SLIDING, ROLLING, STIFFENING = 0, 1, 2, 3
 BOND_VISCOUS, PLASTIC, DROPS, BROKEN = 4, 5, 6, 7
 WALL_WORK, DRIVEN_WORK, APPLIED_WORK, BODY_WORK = 8, 9, 10, 11
-LEFT, START, WOKEN = 12, 13, 14
-TERMS = 15
+LEFT, START, WOKEN, BRAKED = 12, 13, 14, 15
+TERMS = 16
 
 # scratch of turning
 TURN_Q, TURN_W = 0, 4

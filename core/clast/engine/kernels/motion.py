@@ -13,6 +13,7 @@ from .lanes import put, row, vector
 from .layout import (
     APPLIED_WORK,
     BODY_WORK,
+    BRAKED,
     DRIVEN_WORK,
     INVERSE_INERTIA,
     INVERSE_MASS,
@@ -33,11 +34,13 @@ from .slots import (
     ANSWERING,
     APPLIED_LOADS,
     BODY_FORCES,
+    BRAKES,
     ORIENTATION,
     SPIN,
     STAGES,
     VELOCITY_FORCES,
     body_acceleration,
+    braking,
     wall_answer,
     wall_velocity,
 )
@@ -183,6 +186,22 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
 
 
 @inlined
+def brake(particles: Particles, k: int, numbers: Numbers, book: Floats, span: float) -> None:
+    """Change the acceleration of particle k by the damping of motion; book its heat since the forces before.
+
+    The heat is at the same velocities as the work from outside: see ``book_outside_work``.
+    """
+    acceleration, half = particles.acceleration, half_kick(numbers.dt)
+    for inverse, first in ((INVERSE_MASS, F), (INVERSE_INERTIA, M)):
+        if particles.body[k, inverse] > 0.0 and (first == F or SPIN):
+            taken = braking(numbers.braking, row(acceleration, k, first), row(particles.seen, k, first))
+            for c in range(3):
+                acceleration[k, first + c] += taken[c]
+            v = add(row(particles.twist, k, first), scale(half, row(acceleration, k, first)))
+            book[BRAKED] -= span / particles.body[k, inverse] * dot(taken, v)
+
+
+@inlined
 def move_after_forces(
     particles: Particles,
     begin: int,
@@ -198,6 +217,8 @@ def move_after_forces(
     dt = numbers.dt
     for k in range(begin, end):
         accelerate(particles, k, numbers, time)
+        if BRAKES:
+            brake(particles, k, numbers, book, span)
         book_outside_work(particles, k, numbers, time, book, span)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)

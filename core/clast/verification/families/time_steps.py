@@ -98,7 +98,7 @@ def dense_limit(simulation: Simulation) -> tuple[float, float]:
     """Return the limit of the step in s that the dense matrix gives, and the one that Clast finds without it."""
     scene, plan = simulation.scene, simulation.plan
     bodies, springs = bodies_at_start(scene), springs_at_start(scene, plan)
-    factor = plan.integrator.damping_factor
+    factor = plan.damping_factor
     return stable_step(lambda per_time: largest(springs, bodies, per_time), factor), simulation.limits.spectral
 
 

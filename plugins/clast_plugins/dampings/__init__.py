@@ -1,0 +1,1 @@
+"""Dampings, one per file."""
