@@ -197,6 +197,8 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
     if plan.contacts is not None and plan.contacts.between_particles:
         search = scene.config.neighbours.search.part
         slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt)
+        if search.told is not None:
+            rows.append(("neighbour search", search.told(scene.radius + slack)))
         pairs = find_pairs(
             world.particles, world.chunks, world.bonds, empty_pairs(world.chunks, plan.remembered), search, slack
         )

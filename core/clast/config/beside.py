@@ -107,6 +107,6 @@ class PartBeside:
 
 
 WALL = PartBeside("wall", WallSettings, WallChoice)
-NEIGHBOURS = PartBeside("neighbour_search", NeighbourSettings, NeighbourChoice, default="linked_cells")
+NEIGHBOURS = PartBeside("neighbour_search", NeighbourSettings, NeighbourChoice, default="auto")
 BESIDE = {each.kind: each for each in (WALL, NEIGHBOURS)}
 """By kind of part: the keys of Clast beside it."""

@@ -24,8 +24,11 @@ class NeighbourSearch:
     find_pairs : (position, reach) -> pairs
         All pairs with |x_i − x_j| < reach_i + reach_j, from (n, 3) and (n,) float64 to (p, 2) uint32 with i < j in
         rising order. Must not depend on anything else.
+    told : (reach) -> str, optional
+        What the search does with particles of some reaches, and why: for ``clast check --build``.
     """
 
     summary: str
     Params: type[Params]
     find_pairs: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.uint32]]
+    told: Callable[[NDArray[np.float64]], str] | None = None

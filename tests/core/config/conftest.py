@@ -23,6 +23,7 @@ def registry() -> Registry:
             (fakes.rolling_resistance, "constant_torque", Nothing),
             (fakes.integrator, "midstep", Nothing),
             (fakes.integrator, "leapfrog", Nothing),
+            (fakes.neighbour_search, "auto", Nothing),
             (fakes.neighbour_search, "linked_cells", Nothing),
             (fakes.wall, "plane", Plane),
             (fakes.writer, "figure", Nothing),

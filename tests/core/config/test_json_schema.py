@@ -43,10 +43,11 @@ def test_walls_take_material_and_motion_beside_their_shape(registry):
 
 def test_the_neighbour_search_that_is_meant_by_default_needs_no_type(registry):
     definitions = scene_schema(registry)["$defs"]
-    assert definitions["any neighbour_search"]["oneOf"][0] == {"enum": ["linked_cells"]}
-    cells = definitions["neighbour_search linked_cells"]
-    assert set(cells["properties"]) == {"type", "skin"}
-    assert cells["required"] == []
+    assert definitions["any neighbour_search"]["oneOf"][0] == {"enum": ["auto", "linked_cells"]}
+    for name, required in (("auto", []), ("linked_cells", ["type"])):
+        search = definitions[f"neighbour_search {name}"]
+        assert set(search["properties"]) == {"type", "skin"}
+        assert search["required"] == required
 
 
 def test_quantities_have_units_and_standard_bounds(registry):

@@ -34,7 +34,7 @@ def test_defaults_are_those_of_the_contract(load):
     assert scene.name == "scene"
     assert scene.integrator.name == "midstep"
     assert scene.bonds.kinematics.name == "total"
-    assert scene.neighbours.search.name == "linked_cells"
+    assert scene.neighbours.search.name == "auto"
     assert scene.neighbours.skin == "auto"
     assert scene.contacts.rolling.name == "constant_torque"
     assert scene.contacts.bonded_pairs is True
@@ -60,14 +60,14 @@ def test_a_bare_name_stands_for_a_part_without_parameters(load):
 
 
 def test_the_neighbour_search_is_chosen_by_type_with_the_skin_beside_it(load):
-    for written in ("linked_cells", "{type: linked_cells}", "{skin: auto}"):
+    for written in ("auto", "{type: auto}", "{skin: auto}"):
         assert load(overrides=[f"neighbours={written}"]).neighbours == load().neighbours
     assert load(overrides=["neighbours.skin=1 um"]).neighbours.skin == 1e-6
-    assert load(overrides=["neighbours.skin=1 um"]).resolved()["neighbours"] == {"type": "linked_cells", "skin": 1e-6}
+    assert load(overrides=["neighbours.skin=1 um"]).resolved()["neighbours"] == {"type": "auto", "skin": 1e-6}
     said = _said(load, overrides=["neighbours={search: linked_cells}"])
     assert "neighbours.search: not a known key; known are skin, type" in said
     said = _said(load, overrides=["neighbours={type: cells, skin: 0}"])
-    assert "neighbours.type: no neighbour search is named 'cells'; known are linked_cells" in said
+    assert "neighbours.type: no neighbour search is named 'cells'; known are auto, linked_cells" in said
     assert "neighbours.skin: must be greater than 0" in said
     assert "neighbours.skin: must be less than 1e+100" in _said(load, overrides=["neighbours.skin=1e300"])
     assert "must be less than 1e+100" in _said(load, overrides=["time.selective_mass_scaling=1e300 s"])
@@ -225,7 +225,7 @@ def test_every_part_a_scene_uses_is_listed_with_its_source(load):
     assert set(chosen) == {
         "generator ball", "bond_kinematics total", "bond_model elastic", "contact_law hertz",
         "rolling_resistance constant_torque", "wall plane", "motion moving",
-        "integrator midstep", "neighbour_search linked_cells", "writer figure",
+        "integrator midstep", "neighbour_search auto", "writer figure",
     }  # fmt: skip
     assert set(chosen.values()) == {"fake-distribution"}
 

@@ -99,8 +99,8 @@ def summed_up(ledger: Ledger) -> dict[str, float]:
 def judge_neighbours(bench: Bench) -> Findings:
     """Run once more with other neighbour lists: by another search, and with more and less reach."""
     reference = motion(bench.run())
-    variants = {
-        "all pairs tested": {"neighbours": {"type": "brute_force"}},
+    searches = [name for name in bench.scene().registry.names("neighbour_search") if name != "auto"]
+    variants = {name: {"neighbours": {"type": name}} for name in searches} | {
         "a short reach": {"neighbours": {"skin": "0.1 mm"}},
         "a long reach": {"neighbours": {"skin": "2 mm"}},
     }
