@@ -164,6 +164,7 @@ Force = Annotated[float, Unit("N")]
 Moment = Annotated[float, Unit("N m")]
 Mass = Annotated[float, Unit("kg")]
 Angle = Annotated[float, Unit("rad")]
+Frequency = Annotated[float, Unit("Hz")]
 Number = Annotated[float, Unit("1")]
 
 

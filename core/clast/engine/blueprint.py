@@ -105,7 +105,7 @@ class Blueprint:
 
     ``applied_loads`` is whether a constant force or torque acts on some particle, ``ledger`` whether energies are
     booked, ``chunked`` whether the scene is cut into chunks that threads can share, ``curved_walls`` whether some wall
-    is not flat, ``step_share`` what the damping of motion leaves of the stable step.
+    is not flat, ``step_share`` what damping of motion and walls that give way leave of the stable step.
     """
 
     integrator: Integrator
@@ -192,7 +192,7 @@ class Blueprint:
             found += [self.contacts.law.losses] if self.ledger else []
             found += _rolling_functions(self.contacts, self.ledger)
         found += [wall.nearest for wall in self.walls]
-        found += [function for motion in self.motions for function in (motion.velocity, motion.answer)]
+        found += [function for motion in self.motions for function in (motion.velocity, motion.answer, motion.start)]
         found += [force.acceleration for force in self.body_forces]
         found += [self.damping.braking] if self.damping is not None else []
         return [function for function in found if function is not None]

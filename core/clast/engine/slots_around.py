@@ -25,10 +25,12 @@ def _motions(plan: Blueprint) -> list[str]:
         lines += [
             bind(f"velocity_{k}", motion.velocity),
             bind(f"answer_{k}", motion.answer),
+            bind(f"start_{k}", motion.start),
             bind_record(f"Course{k}", motion.Course),
         ]
         course = construct(motion.Course, f"Course{k}", values)
-        known.append(f"velocity_{k}({course}, time)" if motion.velocity else "ZERO")  # what answers begins at rest
+        begin = f"start_{k}({course})" if motion.start else "ZERO"
+        known.append(f"velocity_{k}({course}, time)" if motion.velocity else begin)
         answers.append(f"answer_{k}({course}, time, pressed)" if motion.answer else known[k])
     known.append("ZERO")  # walls without a motion stand still
     answers.append("ZERO")

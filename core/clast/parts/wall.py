@@ -42,12 +42,15 @@ class Pressed(NamedTuple):
         Velocity with which the wall came there in m/s.
     span : float
         Time to the next force evaluation in s: so long the wall keeps the velocity that the motion answers with.
+    since : float
+        Time since the force evaluation before in s, for which the wall kept ``velocity``; 0 at the start.
     """
 
     force: Vec
     mass: float
     velocity: Vec
     span: float
+    since: float = 0.0
 
 
 def never(params: Any) -> bool:
@@ -112,7 +115,12 @@ class Motion:
         Velocity of the wall in m/s.
     answer : (course, time, pressed) -> vector, optional
         Velocity in m/s of a wall that was :class:`Pressed`; ``time`` in s is in the middle of the span. Before the
-        first force evaluation the wall rests.
+        first force evaluation the wall rests, or has the velocity of ``start``.
+    start : (course) -> vector, optional
+        Velocity in m/s of a wall that answers, before any force is known.
+    step_share : (course, mass) -> float, optional
+        Share of the stable step at walls that stand still which is safe with this motion; ``mass`` in kg is that of
+        all particles that forces can move.
 
     Raises
     ------
@@ -126,6 +134,8 @@ class Motion:
     course: Callable[[Any], Any]
     velocity: Callable[..., Vec] | None = None
     answer: Callable[..., Vec] | None = None
+    start: Callable[[Any], Vec] | None = None
+    step_share: Callable[[Any, float], float] | None = None
 
     def __post_init__(self) -> None:
         if (self.velocity is None) == (self.answer is None):

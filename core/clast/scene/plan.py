@@ -41,7 +41,7 @@ def blueprint(scene: Scene) -> Blueprint:
         ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
         damping=config.damping.part if config.damping is not None else None,
-        step_share=step_share(config.damping),
+        step_share=step_share(scene),
         curved_walls=not all(wall.flat for wall in config.walls.values()),
     )
 
@@ -63,9 +63,14 @@ def refuse_ledger(config: SceneConfig) -> None:
         )
 
 
-def step_share(damping: Chosen | None) -> float:
-    """Return the share of the stable step that a damping of motion leaves."""
-    return 1.0 if damping is None else float(damping.part.step_share(damping.params))
+def step_share(scene: Scene) -> float:
+    """Return the share of the stable step that the damping of motion and walls that give way leave."""
+    damping, mass = scene.config.damping, float(scene.mass[~scene.prescribed].sum())
+    share = 1.0 if damping is None else float(damping.part.step_share(damping.params))
+    for wall in scene.config.walls.values():
+        if wall.motion is not None and wall.motion.part.step_share is not None:
+            share *= float(wall.motion.part.step_share(wall.motion.part.course(wall.motion.params), mass))
+    return share
 
 
 def distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:

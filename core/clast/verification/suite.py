@@ -20,6 +20,7 @@ from clast.verification.families import (
     scatter,
     solitary_wave,
     spinning_impacts,
+    surroundings,
     time_steps,
     waves,
     whole_runs,
@@ -40,6 +41,7 @@ FAMILIES: tuple[Family, ...] = (
     waves.FAMILY,
     damping.FAMILY,
     time_steps.FAMILY,
+    surroundings.FAMILY,
     whole_runs.FAMILY,
 )
 

@@ -238,16 +238,16 @@ def start_walls(walls: Walls, time: float) -> None:
 
 
 @routine
-def steer_walls(walls: Walls, mass: float, middle: float, span: float) -> None:
+def steer_walls(walls: Walls, mass: float, middle: float, span: float, since: float) -> None:
     """Give the walls the velocities that they keep for ``span`` seconds, to the next force evaluation.
 
     ``middle`` is the time half-way, in s: there a velocity stands best for the whole span. ``mass`` in kg is that of
-    all particles.
+    all particles, ``since`` the time since the forces before.
     """
     for w in range(len(walls.shape_kind)):
         kind, course = walls.motion_kind[w], walls.course[w]
         if ANSWERING:
-            pressed = Pressed(row(walls.force, w, 0), mass, row(walls.velocity, w, 0), span)
+            pressed = Pressed(row(walls.force, w, 0), mass, row(walls.velocity, w, 0), span, since)
             v = wall_answer(kind, course, middle, pressed)
         else:
             v = wall_velocity(kind, course, middle)

@@ -121,7 +121,7 @@ def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Sta
         at, span_on = until_next_forces(world.clock)
         if span_on > 0.0:
             middle = time + (at + 0.5 * span_on) * numbers.dt
-            steer_walls(world.walls, numbers.mass, middle, span_on * numbers.dt)
+            steer_walls(world.walls, numbers.mass, middle, span_on * numbers.dt, span)
         move_walls(world.walls, stage.drift_after * numbers.dt, numbers.wall_reach2)
 
 
