@@ -13,6 +13,7 @@ import numpy as np
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import RunError
+from clast.observer import Ended
 from clast.parts.writer import Written
 from clast.results import checkpoint, curves, store, summary
 from clast.results.frames import Frames
@@ -119,6 +120,9 @@ class _Session:
         if resume:
             self.store.cut(notes["lengths"])
             self.samples.previous_step = int(notes["previous_sample"])
+            self.samples.stops.recall(self.store.curves())
+            if notes.get("ended"):
+                simulation.end_here(Ended(*notes["ended"]))
         with whole_file(folder / CONFIG_FILE) as draft:
             draft.write_text(dump_yaml(simulation.config.resolved()), encoding="utf-8")
 
@@ -177,6 +181,7 @@ class _Session:
             "lengths": self.store.lengths(),
             "previous_sample": self.samples.previous_step,
             "seconds": self.seconds,
+            "ended": self.simulation.ended,
         }
         checkpoint.save(self.folder, self.simulation, notes)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Protocol
 
 import numpy as np
 
@@ -30,6 +29,7 @@ from clast.engine.tables import slot_view
 from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
+from clast.observer import Ended, Observer
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint
@@ -39,16 +39,6 @@ from clast.scene.world import build_world, relieve
 from clast.soundness.watch import Soundness
 
 BOND_COLUMNS = 8
-
-
-class Observer(Protocol):
-    """Looks at a simulation now and then, and changes nothing."""
-
-    def next_step(self, step: int) -> int | None:
-        """Return the next step after ``step`` to look at, None for never again."""
-
-    def observe(self, simulation: Simulation) -> None:
-        """Look at the simulation, at the end of a step that was asked for."""
 
 
 class Simulation:
@@ -86,6 +76,8 @@ class Simulation:
         Particles that have left the domain.
     rebuilds : int
         How often neighbour lists were made.
+    ended : Ended or None
+        Why the run ended early.
     soundness : Soundness
         Finds what the time step cannot follow.
     """
@@ -112,6 +104,7 @@ class Simulation:
         self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
         self.crew = Crew(threads, self.world)
         self.removed = self.rebuilds = 0
+        self.ended: Ended | None = None
         self.renew_lists()
         if self.plan.contacts is not None and self.plan.contacts.rests:
             relieve(self.scene, self.world.pairs)
@@ -160,8 +153,12 @@ class Simulation:
             stops = [self.last_step, self.keeper.next_look(self.step), *due]
             self.advance_to(min(step for step in stops if step is not None))
             for observer, step in zip(observers, due, strict=True):
-                if step == self.step:
+                if step == self.step or (self.ended and observer.next_step(self.step - 1) == self.step):
                     observer.observe(self)
+
+    def end_here(self, ended: Ended) -> None:
+        """Make the present step the last."""
+        self.ended, self.last_step = ended, self.step
 
     def advance_to(self, step: int) -> None:
         """Advance to a step, looking now and then whether the time step is still safe.

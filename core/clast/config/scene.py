@@ -11,6 +11,7 @@ from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, Validati
 
 from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
 from clast.config.choice import Chosen, PartOf, default_part
+from clast.config.conditions import blind_conditions
 from clast.config.contacts import Contacts
 from clast.config.document import Document, Problem
 from clast.config.names import FolderName, Key
@@ -84,6 +85,10 @@ class SceneConfig(Params):
         default_factory=dict, validate_default=True
     )
     time: Annotated[TimeSettings, Field(description="Time step and end of the run")]
+    stop: Annotated[
+        tuple[Annotated[Chosen, PartOf("stop")], ...],
+        Field(description="Conditions that end the run before its time; the first that is reached does"),
+    ] = ()
     output: Annotated[Output, Field(description="What a run leaves behind")] = Field(
         default_factory=dict, validate_default=True
     )
@@ -225,6 +230,7 @@ def build(document: Document) -> SceneConfig:
         found = located(error, SceneConfig, document)
         # what a file that was not loaded would have brought cannot be missed
         problems += [each for each in found if not (not_loaded and each.kind == UNKNOWN_PART)]
+    problems += blind_conditions(scene) if scene is not None else ()
     if problems or scene is None:
         raise ConfigError(document.report(problems))
     scene._document, scene._registry = document, registry

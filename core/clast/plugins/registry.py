@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from clast.parts.integrator import Integrator
     from clast.parts.neighbour_search import NeighbourSearch
     from clast.parts.rolling_resistance import RollingResistance
+    from clast.parts.stop import Stop
     from clast.parts.wall import BodyForce, Motion, Wall
     from clast.parts.writer import Writer
 
@@ -39,6 +40,7 @@ KINDS = (
     "wall",
     "motion",
     "body_force",
+    "stop",
     "writer",
 )
 NAME = re.compile(r"[a-z][a-z0-9_]*")
@@ -206,6 +208,10 @@ class Registry:
     def body_force(self, name: str, part: BodyForce) -> None:
         """Register a body force."""
         self.add("body_force", name, part)
+
+    def stop(self, name: str, part: Stop) -> None:
+        """Register a condition that ends a run."""
+        self.add("stop", name, part)
 
     def writer(self, name: str, part: Writer) -> None:
         """Register a writer of results."""

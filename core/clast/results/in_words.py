@@ -41,6 +41,8 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         rows.append(("energy ledger", sentence(summary["energy"])))
     rate = summary["steps_per_s"]
     rows.append(("steps", steps_text(summary)))
+    if summary.get("ended_by"):
+        rows.append((f"ended by {summary['ended_by']['by']}", summary["ended_by"]["reason"]))
     if summary["time_step_warning"]:
         rows.append(("WARNING", summary["time_step_warning"]))
     if summary.get("particles_made_heavier"):

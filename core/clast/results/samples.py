@@ -8,6 +8,7 @@ from clast.engine.kernels.layout import F, M, V, W, X
 from clast.engine.ledger import Ledger
 from clast.engine.state import Floats
 from clast.results import energy
+from clast.results.stops import Stops
 from clast.results.store import Store
 from clast.simulation import Simulation
 
@@ -31,6 +32,7 @@ class Samples:
         output = simulation.config.output
         self.store = store
         self.simulation = simulation
+        self.stops = Stops(simulation.config)
         self.every = max(1, round(simulation.planned_steps / output.samples))
         self.mean = output.force == "mean"
         self.particles = np.array(output.tracks.particles, np.int64)
@@ -60,7 +62,8 @@ class Samples:
             If the numbers cannot be trusted any more.
         """
         ledger = simulation.trusted_ledger()
-        self.store.append("curves", self._row(simulation, ledger))
+        row = self._row(simulation, ledger) | self.stops.extra(simulation)
+        self.store.append("curves", row)
         if len(self.particles):
             self.store.append("tracks/particles", self._particle_row(simulation))
         if len(self.bonds):
@@ -68,6 +71,7 @@ class Samples:
         walls = simulation.world.walls
         walls.force_sum[:] = walls.moment_sum[:] = walls.pressing_sum[:] = 0.0
         self.previous_step = simulation.step
+        self.stops.look(simulation, row)
 
     def _row(self, simulation: Simulation, ledger: Ledger) -> dict[str, float]:
         walls, gauge = simulation.world.walls, simulation.gauge

@@ -109,6 +109,10 @@ class Store:
         """Append one row to every dataset of a group; it reaches the file with the next flush."""
         self.extend(group, {name: np.array(value)[None] for name, value in row.items()})
 
+    def curves(self) -> dict[str, NDArray[Any]]:
+        """Return all samples that are on disk, by column."""
+        return {name: np.asarray(values) for name, values in self.file.get("curves", {}).items()}
+
     def extend(self, group: str, rows: Mapping[str, NDArray[Any]]) -> None:
         """Append any number of rows to every dataset of a group; they reach the file with the next flush.
 

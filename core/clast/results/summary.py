@@ -73,6 +73,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "time_step_warning": simulation.keeper.warning,
         "steps": simulation.step,
         "simulated_time_s": simulation.time,
+        "ended_by": simulation.ended._asdict() if simulation.ended else None,
         "wall_time_s": wall_time,
         "steps_per_s": simulation.step / wall_time if wall_time > 0 else None,
         "neighbour_lists_made": simulation.rebuilds,

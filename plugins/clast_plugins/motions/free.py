@@ -31,7 +31,8 @@ class Free(Params):
     Limits
     ------
     Translation only. Other walls do not touch it. Between two force evaluations it keeps one velocity, as particles do:
-    second order, and momentum is exchanged with particles without loss. The stable step is that with walls at rest,
+    second order, and momentum is exchanged with particles without loss. Dashpots of contacts take every wall as endlessly
+    heavy, so light particles calm a heavy lid but slowly. The stable step is that with walls at rest,
     times 1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The ledger counts
     the wall as outside: its own energy is not in it.
 

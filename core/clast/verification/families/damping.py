@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import log, pi, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.results.stops import Stops
 from clast.simulation import Simulation
 from clast.verification import needs
 from clast.verification.bench import Bench
@@ -21,6 +22,9 @@ from clast.verification.sketch import Line, Sketch
 SWINGS = 6
 """Swings, each of half a period, that are compared."""
 
+LOOKS = 5
+"""Looks at the forces in each swing."""
+
 SHARE, STATICS = 1e-3, 1e-5
 """Accuracy of what a swing keeps, with a thousand steps of a period, and of what is left at rest."""
 
@@ -29,13 +33,10 @@ def judge_local(bench: Bench) -> Findings:
     """Compare swing after swing, and the rest, with closed forms of a spring that is 1 - α and 1 + α times as stiff."""
     simulation = bench.start()
     scene, beam, config = simulation.scene, beam_of(simulation.scene), simulation.scene.config
-    assert config.damping is not None
-    damping: Any = config.damping.params
     gravity: Any = config.body_forces[0].params
-    alpha, m = damping.factor, float(scene.mass[1])
-    weight = m * float(np.linalg.norm(gravity.acceleration))
-    sag, kept = weight / beam.axial, sqrt((1.0 - alpha) / (1.0 + alpha))
-    half = 0.5 * pi * sqrt(m / beam.axial) * (1.0 / sqrt(1.0 - alpha) + 1.0 / sqrt(1.0 + alpha))
+    weight = float(scene.mass[1]) * float(np.linalg.norm(gravity.acceleration))
+    sag = weight / beam.axial
+    _, half, kept = swing_of(simulation)
     places, turns = follow(simulation, lambda at: (position(at)[1, 2], twist(at)))
     time, offset = simulation.dt * np.arange(len(places)), places[0] - places - sag
     for name, swing in (("sagging", offset), ("twisting", turns)):
@@ -54,6 +55,42 @@ def judge_local(bench: Bench) -> Findings:
     shown = slice(0, int((SWINGS + 0.5) * half / simulation.dt))
     lines = (Line("Clast", np.asarray(1e3 * time[shown]), np.asarray(offset[shown] / sag)), turned)
     yield Sketch("a sphere sags under its weight", "time, ms", "distance from rest, share of the sag", lines)
+
+
+class Look:
+    """Observer that asks the scene's conditions, a few times in each swing."""
+
+    def __init__(self, simulation: Simulation, every: int) -> None:
+        self.stops, self.every = Stops(simulation.config), every
+
+    def next_step(self, step: int) -> int | None:
+        """Return the next step to look at."""
+        return (step // self.every + 1) * self.every
+
+    def observe(self, simulation: Simulation) -> None:
+        """Ask the conditions."""
+        self.stops.look(simulation, self.stops.extra(simulation))
+
+
+def judge_rest(bench: Bench) -> Findings:
+    """See when the spheres count as at rest: once the last swing's forces are below the limit."""
+    limit = 1e-3
+    simulation = bench.start({"stop": [{"type": "at_rest", "limit": limit, "samples": LOOKS}]})
+    alpha, half, kept = swing_of(simulation)
+    simulation.run([Look(simulation, round(half / LOOKS / simulation.dt))])
+    swings = log(limit / (1.0 + alpha)) / log(kept)
+    yield Finding("time at which it counts as at rest, s", swings * half, simulation.time, 0.1)
+    yield Finding("ended by a condition", 1.0, float(simulation.ended is not None), 0.0)
+
+
+def swing_of(simulation: Simulation) -> tuple[float, float, float]:
+    """Return α, the time of a swing in s, and the share of it that the next keeps."""
+    scene = simulation.scene
+    assert scene.config.damping is not None
+    damping: Any = scene.config.damping.params
+    alpha = float(damping.factor)
+    half = 0.5 * pi * sqrt(float(scene.mass[1]) / beam_of(scene).axial)
+    return alpha, half * (1.0 / sqrt(1.0 - alpha) + 1.0 / sqrt(1.0 + alpha)), sqrt((1.0 - alpha) / (1.0 + alpha))
 
 
 def twist(simulation: Simulation) -> float:
@@ -80,6 +117,14 @@ FAMILY = Family(
             judge_local,
             "P. A. Cundall (1987), Distinct element models of rock and soil structure: an oscillator of the stiffness "
             "(1 - α) k on the way to rest and (1 + α) k away from it; at rest m g/k",
+            (needs.cylinder,),
+        ),
+        Case(
+            "stop_at_rest",
+            "when a run counts as at rest",
+            "damping_local",
+            judge_rest,
+            "the swing of which (1 + α) √((1 - α)/(1 + α))^n falls below the limit; within a swing and a half",
             (needs.cylinder,),
         ),
     ),

@@ -1,0 +1,67 @@
+"""Every condition: it can be tried, asks for what there is, and is reached when it says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from clast.errors import PluginError
+from clast.parts.examples import example
+from clast.parts.params import Params
+from clast.parts.stop import UNBALANCE, Stop
+from clast.plugins.discovery import discover
+
+
+def part(name: str) -> Stop:
+    return discover().get("stop", name).part
+
+
+def curves(**columns: list[float]) -> dict[str, np.ndarray]:
+    quiet = {
+        "time_s": [0.0, 1.0],
+        "strain": [0.0, 0.0],
+        "stress_Pa": [0.0, 0.0],
+        "bonds_broken": [0.0, 0.0],
+        "bonds_intact": [4.0, 4.0],
+        UNBALANCE: [1.0, 1.0],
+    }
+    return {name: np.array(values) for name, values in (quiet | columns).items()}
+
+
+def asked(name: str, changes: dict[str, object], **columns: list[float]) -> str | None:
+    return part(name).reached(example(part(name).Params, changes), curves(**columns))
+
+
+@pytest.mark.parametrize("name", discover().names("stop"))
+def test_where_nothing_has_happened_a_run_goes_on(name):
+    assert part(name).reached(example(part(name).Params), curves()) is None
+
+
+def test_a_force_drop_counts_from_the_highest_peak_and_only_from_one_that_is_high_enough():
+    changes = {"share": 0.4, "least": 5.0}
+    assert asked("force_drop", changes, stress_Pa=[0, 4, 1]) is None
+    assert asked("force_drop", changes, stress_Pa=[0, 10, 6.1]) is None
+    assert asked("force_drop", changes, stress_Pa=[0, 10, 8, 6]) == "the stress fell to 6 Pa, 60% of its peak, 10 Pa"
+    assert asked("force_drop", changes, stress_Pa=[0, -1, -2]) is None
+
+
+def test_rest_is_a_ratio_that_stays_small():
+    changes = {"limit": 0.01, "samples": 3}
+    assert asked("at_rest", changes, **{UNBALANCE: [0.0, 0.0]}) is None
+    assert asked("at_rest", changes, **{UNBALANCE: [0.0, 0.02, 0.0, 0.0]}) is None
+    assert asked("at_rest", changes, **{UNBALANCE: [0.0, float("nan"), 0.0]}) is None
+    told = asked("at_rest", changes, **{UNBALANCE: [1.0, 0.009, 0.0, 0.001]})
+    assert told == "at rest: unbalanced forces are 0.009 of those that hold, at 3 samples in a row"
+
+
+def test_strain_and_broken_bonds_are_reached_at_their_number():
+    assert asked("strain", {"strain": 0.1}, strain=[0, 0.099]) is None
+    assert asked("strain", {"strain": 0.1}, strain=[0, 0.1]) == "the strain reached 0.1"
+    assert asked("bonds_broken", {"share": 0.5}, bonds_broken=[0, 1], bonds_intact=[4, 3]) is None
+    assert asked("bonds_broken", {"share": 0.5}, bonds_broken=[0, 2], bonds_intact=[4, 2]) == "2 of 4 bonds are broken"
+    assert asked("bonds_broken", {}, bonds_broken=[0, 0], bonds_intact=[0, 0]) is None
+
+
+def test_a_condition_that_asks_for_a_column_that_there_is_not_is_refused():
+    with pytest.raises(PluginError, match="asks for 'colour'; on demand there is unbalanced_force_ratio"):
+        Stop(summary="odd", Params=Params, reached=lambda params, curves: None, columns=("colour",))
