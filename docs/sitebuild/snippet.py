@@ -17,10 +17,12 @@ _PLACES: dict[str, Callable[[Any], Any]] = {
     "bond_kinematics": lambda part: {"bonds": {"kinematics": part}},
     "contact_law": lambda part: {"contacts": {"law": part}},
     "integrator": lambda part: {"integrator": part},
+    "damping": lambda part: {"damping": part},
     "neighbour_search": lambda part: {"neighbours": part},
     "wall": lambda part: {"walls": {"plate": part | {"material": "steel"}}},
     "motion": lambda part: {"walls": {"plate": {"motion": part}}},
     "body_force": lambda part: {"body_forces": [part]},
+    "stop": lambda part: {"stop": [part]},
     "writer": lambda part: {"output": {"writers": [part]}},
 }
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.parts.integrator import Integrator
+from clast.parts.integrator import Integrator, amplification
 from clast.testing.claim import Claim, claim, must
 from clast.testing.draws import numbers
 
@@ -35,26 +35,13 @@ def claims(scheme: Integrator, params: Any) -> list[Claim]:
 SHARES = numbers(0.01, 0.999)
 
 
-def amplification(scheme: Integrator, h: float, zeta: float) -> Matrix:
-    """Return what one step of length h does to (x, v, a) of x'' = −x − 2 ζ x', (3, 3) float64."""
-    step = np.eye(3)
-    for stage in scheme.stages:
-        forces = np.array([[1, 0, 0], [0, 1, 0], [-1.0, -2.0 * zeta, -2.0 * zeta * stage.predict * h]])
-        before = _move(0, 1, stage.drift_before * h) @ _move(1, 2, stage.kick_before * h)
-        after = _move(0, 1, stage.drift_after * h) @ _move(1, 2, stage.kick_after * h)
-        step = after @ forces @ before @ step
-    return np.asarray(step)
-
-
-def _move(row: int, column: int, by: float) -> Matrix:
-    matrix = np.eye(3)
-    matrix[row, column] = by
-    return matrix
+def _step(scheme: Integrator, h: float, zeta: float) -> Matrix:
+    return np.asarray(amplification(scheme.stages, np.array([h]), zeta)[0])
 
 
 def growth(scheme: Integrator, h: float, zeta: float) -> float:
     """Return the factor by which a step of length h lets an oscillator grow at most."""
-    return float(np.abs(np.linalg.eigvals(amplification(scheme, h, zeta))).max())
+    return float(np.abs(np.linalg.eigvals(_step(scheme, h, zeta))).max())
 
 
 def _whole(scheme: Integrator) -> None:
@@ -69,7 +56,7 @@ def _error(scheme: Integrator, steps: int) -> float:
     h = 1.0 / steps
     lag = scheme.velocity_lag * h
     state = np.array([1.0, -math.sin(lag), -1.0])
-    step = amplification(scheme, h, 0.0)
+    step = _step(scheme, h, 0.0)
     for _ in range(steps):
         state = step @ state
     return abs(float(state[0]) - math.cos(1.0))

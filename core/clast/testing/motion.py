@@ -36,7 +36,7 @@ def velocity(motion: Motion, course: Any, time: float, force: Vec, velocity: Vec
     if motion.velocity is not None:
         return motion.velocity(course, time)
     assert motion.answer is not None
-    return motion.answer(course, time, Pressed(force, MASS, velocity, SPAN))
+    return motion.answer(course, time, Pressed(force, MASS, velocity, SPAN, SPAN))
 
 
 def _sound(motion: Motion, course: Any, time: float, force: Vec, before: Vec) -> None:
@@ -55,7 +55,7 @@ def _compiled_alike(motion: Motion, course: Any) -> None:
     def answering(times: Any, forces: Any, course: Any, out: Any) -> None:
         for k in range(len(times)):
             f = forces[k]
-            pressed = Pressed((f[0], f[1], f[2]), MASS, (f[3], f[4], f[5]), SPAN)
+            pressed = Pressed((f[0], f[1], f[2]), MASS, (f[3], f[4], f[5]), SPAN, SPAN)
             out[k, 0], out[k, 1], out[k, 2] = answer(course, times[k], pressed)  # type: ignore[misc]
 
     draw = np.random.default_rng(13)

@@ -48,7 +48,7 @@ def answered(motion: Motion, params: Params, time: Floats) -> Floats:
     velocity: Vec = ZERO
     rows = []
     for t in time:
-        pressed = Pressed(force=scale(-SPRING, where), mass=MASS, velocity=velocity, span=span)
+        pressed = Pressed(force=scale(-SPRING, where), mass=MASS, velocity=velocity, span=span, since=span)
         velocity = motion.answer(course, float(t), pressed)
         where = add(where, scale(span, velocity))
         rows.append(velocity)

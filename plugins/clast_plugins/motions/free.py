@@ -31,10 +31,10 @@ class Free(Params):
     Limits
     ------
     Translation only. Other walls do not touch it. Between two force evaluations it keeps one velocity, as particles do:
-    second order, and momentum is exchanged with particles without loss. Dashpots of contacts take every wall as endlessly
-    heavy, so light particles calm a heavy lid but slowly. The stable step is that with walls at rest,
-    times 1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The ledger counts
-    the wall as outside: its own energy is not in it.
+    second order, and momentum is exchanged with particles without loss. Dashpots of contacts take every wall as
+    endlessly heavy, so light particles calm a heavy lid but slowly. The stable step is that with walls at rest, times
+    1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The ledger counts the
+    wall as outside: its own energy is not in it.
 
     Source
     ------
@@ -42,7 +42,10 @@ class Free(Params):
     """
 
     mass: Annotated[Mass, Field(gt=0, examples=["1 g"], description="Mass of the wall")]
-    gravity: Annotated[AccelerationVector, Field(description="Acceleration of gravity, for this wall alone")] = ZERO
+    gravity: Annotated[
+        AccelerationVector,
+        Field(examples=[[0, 0, "-9.81 m/s2"]], description="Acceleration of gravity, for this wall alone"),
+    ] = ZERO
     force: Annotated[ForceVector, Field(description="Constant force on the wall, besides")] = ZERO
     velocity: Annotated[VelocityVector, Field(description="Velocity at the start")] = ZERO
     along: Annotated[Direction | None, Field(description="Direction along which alone it moves; none: any")] = None

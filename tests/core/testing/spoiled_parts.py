@@ -108,5 +108,16 @@ SPOILED = [
     ("bond_kinematics", "pulling strains", "axial=length - ref.L0", "axial=2.0 * (length - ref.L0)"),
     ("bond_kinematics", "a small twist", "twist = dot(theta, ref.n0)", "twist = 2.0 * dot(theta, ref.n0)"),
     ("bond_kinematics", "forces and moments", "add(moment, cross(at.d, pull))", "moment"),
+    ("damping", "it brakes and never drives", "scale(-known.rate, velocity)", "scale(known.rate, velocity)"),
+    ("damping", "what rests without force", "scale(-known.rate, velocity)", "(1.0, 0.0, 0.0)"),
+    (
+        "damping",
+        "an oscillator is stable",
+        "return sqrt(1.0 + params.ratio * params.ratio) - params.ratio",
+        "return 1.0",
+    ),
+    ("stop", "a run in which nothing", "stress >= params.stress", "stress < params.stress"),
+    ("stop", "it answers with a sentence", 'return f"the stress reached {stress:.4g} Pa" if', "return 7 if"),
+    ("stop", "the same curves", "stress = float(", 'curves["stress_Pa"][-1] += 1.0\n    stress = float('),
     ("writer", "it writes the file", "    path.write_text(", "    str("),
 ]

@@ -10,6 +10,7 @@ from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.parts.stop import UNBALANCE, Stop
 from clast.plugins.discovery import discover
+from clast.testing.kit import try_part
 
 
 def part(name: str) -> Stop:
@@ -33,8 +34,9 @@ def asked(name: str, changes: dict[str, object], **columns: list[float]) -> str 
 
 
 @pytest.mark.parametrize("name", discover().names("stop"))
-def test_where_nothing_has_happened_a_run_goes_on(name):
-    assert part(name).reached(example(part(name).Params), curves()) is None
+def test_it_keeps_to_what_holds_for_every_condition(name):
+    outcomes = try_part(discover().get("stop", name))
+    assert [outcome for outcome in outcomes if not outcome.passed] == []
 
 
 def test_a_force_drop_counts_from_the_highest_peak_and_only_from_one_that_is_high_enough():

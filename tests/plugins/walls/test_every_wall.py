@@ -1,19 +1,12 @@
-"""Every wall shape: its distance is a distance, its normal the way along which it shrinks, its picture its surface."""
+"""Every wall shape keeps to the contract of walls, on both sides where it has two; what a block does beyond it."""
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
-from hypothesis import assume, given, settings
 
-from clast.maths.vec3 import add, norm, scale, sub
-from clast.parts.examples import example
 from clast.parts.wall import Wall
 from clast.plugins.discovery import discover
-from tests.support.strategies import numbers, vectors
-
-SIZE = 0.05
-"""Of the room in m in which points are drawn: the examples are of some millimetres to centimetres."""
+from clast.testing.kit import try_part
 
 
 def part(name: str) -> Wall:
@@ -33,41 +26,9 @@ each = pytest.mark.parametrize(("name", "changes"), variants(), ids=lambda value
 
 
 @each
-@settings(max_examples=60, deadline=None)
-@given(x=vectors(SIZE), y=vectors(SIZE))
-def test_two_points_differ_in_distance_by_no_more_than_they_are_apart(name, changes, x, y):
-    wall = part(name)
-    shape = wall.shape(example(wall.Params, changes))
-    far, near = wall.nearest(shape, x).distance, wall.nearest(shape, y).distance
-    assert abs(far - near) <= norm(sub(x, y)) * (1.0 + 1e-9) + 1e-15
-
-
-@each
-@settings(max_examples=60, deadline=None)
-@given(x=vectors(SIZE), share=numbers(0.0, 1.0))
-def test_on_the_way_along_the_normal_the_distance_shrinks_to_nothing(name, changes, x, share):
-    wall = part(name)
-    shape = wall.shape(example(wall.Params, changes))
-    near = wall.nearest(shape, x)
-    assume(abs(near.distance) > 1e-9)
-    assume(norm(near.normal) > 0.0)
-    assert norm(near.normal) == pytest.approx(1.0, abs=1e-12)
-    on = wall.nearest(shape, add(x, scale(share * near.distance, near.normal)))
-    assert on.distance == pytest.approx((1.0 - share) * near.distance, abs=1e-12)
-
-
-@each
-def test_the_drawn_surface_lies_on_the_wall(name, changes):
-    wall = part(name)
-    params = example(wall.Params, changes)
-    points, triangles = wall.mesh(params, 0.03)
-    away = [wall.nearest(wall.shape(params), tuple(x)).distance for x in points.tolist()]
-    assert np.abs(away).max() < 1e-9
-    assert triangles.min() >= 0
-    assert triangles.max() < len(points)
-    corners = points[triangles]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    assert areas.sum() > 0.0
+def test_it_keeps_to_what_holds_for_every_wall(name, changes):
+    outcomes = try_part(discover().get("wall", name), changes)
+    assert [outcome for outcome in outcomes if not outcome.passed] == []
 
 
 def test_a_block_without_a_volume_is_refused():
