@@ -16,6 +16,7 @@ from clast.verification.families import (
     damping,
     impacts,
     oblique_impacts,
+    packings,
     rotations,
     scatter,
     solitary_wave,
@@ -42,6 +43,7 @@ FAMILIES: tuple[Family, ...] = (
     damping.FAMILY,
     time_steps.FAMILY,
     surroundings.FAMILY,
+    packings.FAMILY,
     whole_runs.FAMILY,
 )
 
