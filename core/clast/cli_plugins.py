@@ -58,8 +58,8 @@ def show(files: tuple[Path, ...], name: str, as_json: bool) -> None:
 def new(kind: str, name: str, output: Path | None) -> None:
     """Write a part of KIND named NAME that works as it stands, to be changed.
 
-    KIND is generator, bond_model, bond_kinematics, contact_law, integrator, damping, neighbour_search, wall, motion,
-    body_force, stop or writer.
+    KIND is generator, bond_model, bond_kinematics, contact_law, rolling_resistance, integrator, damping,
+    neighbour_search, wall, motion, body_force, stop or writer.
     """
     from clast.plugins.new import write_starter
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from clast.errors import PluginError, one_line
 from clast.parts.params import Params
 from clast.plugins.blame import plugin_line
+from clast.plugins.conflict import conflict
 from clast.plugins.nearest import suggestion
 
 if TYPE_CHECKING:
@@ -228,7 +229,7 @@ class Registry:
         self._check(kind, name, part)
         taken = self._parts.get((kind, name))
         if taken is not None:
-            raise NameTakenError(_conflict(taken, self._source))
+            raise NameTakenError(conflict(taken, self._source))
         self._parts[kind, name] = Registered(kind, name, part, self._source)
 
     def get(self, kind: str, name: str) -> Registered:
@@ -291,12 +292,3 @@ class Registry:
         if not self._parts and not self.failures:
             message += "; no plugin is installed, not even Clast's own: install it with 'pip install -e .'"
         return message
-
-
-def _conflict(taken: Registered, second: Source) -> str:
-    kind = taken.kind.replace("_", " ")
-    return (
-        f"two plugins bring a {kind} named {taken.name!r}: {taken.source.plugin!r} ({taken.source}) and "
-        f"{second.plugin!r} ({second}); rename one of them, uninstall one, or leave one out with "
-        f"CLAST_PLUGINS=<the plugins to load> or CLAST_PLUGINS=none"
-    )

@@ -1,0 +1,18 @@
+"""Conflict: what to tell where two plugins bring a part of one kind under one name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from clast.plugins.registry import Registered, Source
+
+
+def conflict(taken: Registered, second: Source) -> str:
+    """Return which two plugins bring a part of one kind and name, and what to do."""
+    kind = taken.kind.replace("_", " ")
+    return (
+        f"two plugins bring a {kind} named {taken.name!r}: {taken.source.plugin!r} ({taken.source}) and "
+        f"{second.plugin!r} ({second}); rename one of them, uninstall one, or leave one out with "
+        f"CLAST_PLUGINS=<the plugins to load> or CLAST_PLUGINS=none"
+    )
