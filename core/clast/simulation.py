@@ -96,8 +96,7 @@ class Simulation:
         self.skin = choose_skin(self.scene)
         self.gauge = Gauge(config)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
-        try_laws(self.scene, self.plan)
-        self.kernel: Kernel = assemble(self.plan)
+        self.kernel: Kernel = assemble(self.plan, try_laws(self.scene, self.plan))
         if compiling is not None and self.kernel.fresh:
             compiling()
         self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral, self.kernel.gaps)

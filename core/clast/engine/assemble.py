@@ -8,7 +8,7 @@ import shutil
 import stat
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -79,8 +79,13 @@ def _temporary_folder() -> Path:
     return folder if own else Path(tempfile.mkdtemp(prefix="clast-"))
 
 
-def assemble(plan: Blueprint) -> Kernel:
+def assemble(plan: Blueprint, heard: Mapping[Callable[..., Any], Any] | None = None) -> Kernel:
     """Return the step loop for a blueprint, compiled at its first call or loaded from disk.
+
+    Parameters
+    ----------
+    heard : mapping, optional
+        What functions of laws gave in plain Python, to be told beside what the compiler says of them.
 
     Raises
     ------
@@ -90,7 +95,7 @@ def assemble(plan: Blueprint) -> Kernel:
     text = slots_text(plan)
     helpers = _template_helpers()
     name = f"clast_kernel_{digest([*plan.functions(), *helpers], text, _template_text())}"
-    folder, laws = cache_folder() / name, law_files(plan.functions())
+    folder, laws = cache_folder() / name, law_files(plan.functions(), heard or {})
     _write_package(folder, text)
     let_compiled_code_call([*plan.functions(), *helpers])
     package = _import_package(name, folder)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from clast.engine.law_errors import compiler_errors, law_errors
+from clast.engine.law_errors import Laws, compiler_errors, law_errors
 
 
 class Entry:
@@ -19,12 +19,12 @@ class Entry:
         Made by :func:`clast.engine.compiler.compiled`.
     lock : Path
         File that processes lock while they compile.
-    laws : set of str
-        Files of the laws that it calls.
+    laws : mapping
+        Files of the laws that it calls, and what was heard of their functions.
     """
 
-    def __init__(self, function: Any, lock: Path, laws: Set[str] = frozenset()) -> None:
-        self.function, self.lock, self.laws, self.ready = function, lock, laws, False
+    def __init__(self, function: Any, lock: Path, laws: Laws | None = None) -> None:
+        self.function, self.lock, self.laws, self.ready = function, lock, laws or {}, False
 
     def __call__(self, *arguments: Any) -> Any:
         """Call it.

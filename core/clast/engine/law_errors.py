@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from traceback import walk_tb
-from typing import Any
+from typing import Any, NamedTuple
 
 import clast
 from clast.engine.sources import source_files
@@ -24,14 +24,35 @@ PLACE = re.compile(r'File "([^"]+)", line (\d+)|Raised from (.+?) \((\d+)\)')
 REASON = re.compile(r"^(No implementation|\w*Error: |Unknown|Use of|The use of|Untyped|Cannot|Can't)")
 
 
-def law_files(functions: Iterable[Callable[..., Any]]) -> Set[str]:
-    """Return the files of laws and of what they call, without those of Clast's own helpers."""
+class Heard(NamedTuple):
+    """A function of a law, its first and last line, and what it gave in plain Python."""
+
+    name: str
+    first: int
+    last: int
+    result: str
+
+
+Laws = Mapping[str, Sequence[Heard]]
+"""Files of laws, and what was heard of their functions."""
+
+
+def law_files(
+    functions: Iterable[Callable[..., Any]], heard: Mapping[Callable[..., Any], Any] | None = None
+) -> dict[str, list[Heard]]:
+    """Return the files of laws and of what they call, without those of Clast's own helpers, with what was heard."""
     files = {file.resolve() for file in source_files(functions)}
-    return {str(file) for file in files if not file.is_relative_to(OWN)}
+    found: dict[str, list[Heard]] = {str(file): [] for file in files if not file.is_relative_to(OWN)}
+    for function, value in (heard or {}).items():
+        code = function.__code__
+        last = max(line for _, _, line in code.co_lines() if line is not None)
+        spoken = Heard(function.__name__, code.co_firstlineno, last, repr(value))
+        found.get(_resolved(code.co_filename), []).append(spoken)
+    return found
 
 
 @contextmanager
-def compiler_errors(laws: Set[str]) -> Iterator[None]:
+def compiler_errors(laws: Laws) -> Iterator[None]:
     """Turn what numba raises over a law into the law's file and line.
 
     Numba raises errors of its own where it knows what is wrong, and anything else where a law leads it astray. What the
@@ -49,11 +70,11 @@ def compiler_errors(laws: Set[str]) -> Iterator[None]:
     except Exception as error:
         places = [*_told(error, laws), *_known(error, laws)]
         where = places[0] if places else _somewhere(laws)
-        raise PluginError(f"{where}: cannot be compiled: {_reason(error)}. {ADVICE}") from error
+        raise PluginError(f"{where}: cannot be compiled: {_reason(error)}. {_beside(where, laws)}{ADVICE}") from error
 
 
 @contextmanager
-def law_errors(laws: Set[str]) -> Iterator[None]:
+def law_errors(laws: Laws) -> Iterator[None]:
     """Tell what a compiled law raised with its line; Clast's own compiled code raises nothing but for want of memory.
 
     Raises
@@ -72,18 +93,27 @@ def law_errors(laws: Set[str]) -> Iterator[None]:
         raise PluginError(f"{where}: raised {one_line(error)}") from error
 
 
-def _somewhere(laws: Set[str]) -> str:
+def _beside(where: str, laws: Laws) -> str:
+    """Return what the function at a place gave in plain Python; empty where that is not known."""
+    file, _, line = where.rpartition(":")
+    for heard in laws.get(file, ()):
+        if line.isdigit() and heard.first <= int(line) <= heard.last:
+            return f"In plain Python '{heard.name}' gives {heard.result}. "
+    return ""
+
+
+def _somewhere(laws: Laws) -> str:
     """Return what to say where no line is known."""
     return f"a law of this scene, in {' or '.join(sorted(laws))}"
 
 
-def _told(error: Exception, laws: Set[str]) -> list[str]:
+def _told(error: Exception, laws: Laws) -> list[str]:
     """Return the places in laws that an error tells, the innermost first."""
     found = [(_resolved(a or c), b or d) for a, b, c, d in PLACE.findall(str(error))]
     return [f"{file}:{line}" for file, line in found if file in laws]
 
 
-def _known(error: Exception, laws: Set[str]) -> list[str]:
+def _known(error: Exception, laws: Laws) -> list[str]:
     """Return the places in laws at which the compiler was when it failed, the innermost first."""
     from numba.core.ir import Loc
 
