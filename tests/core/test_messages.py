@@ -119,6 +119,31 @@ def test_a_function_of_a_plugin_that_raises_is_told_with_its_line() -> None:
     assert told == f"{Path('my_law.py').resolve()}:{line}: raised NameError: name 'oops' is not defined"
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        (
+            "shear=scale(kept * c.shear, strain.shear)",
+            "shear=(1.0, 2.0, float('nan'))",
+            "load must return finite numbers",
+        ),
+        ("return state.largest / c.eps_f", "return (state.largest, c.eps_f)", "failure must return float, given ("),
+        ("BondState(max(state.largest,", "BondState(max(state.widest,", "has no attribute 'widest'"),
+    ],
+)
+def test_a_law_that_gives_no_numbers_or_asks_for_what_it_never_declared_is_told(
+    old: str, new: str, reason: str
+) -> None:
+    law = (EXAMPLES / "my_law.py").read_text()
+    assert old in law
+    table("my_law.py", law.replace(old, new))
+    table("scene.yaml", (EXAMPLES / "my_law.yaml").read_text())
+    told = said(clast("run", "scene.yaml"))
+    assert told.startswith(f"{Path('my_law.py').resolve()}:")
+    assert reason in told
+    assert len(told.splitlines()) == 1
+
+
 def test_a_plugin_that_cannot_be_loaded_is_one_message_with_file_and_line() -> None:
     table("my_law.py", "import clast\n\nnonsense(\n")
     table("scene.yaml", (EXAMPLES / "my_law.yaml").read_text())

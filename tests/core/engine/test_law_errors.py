@@ -89,6 +89,18 @@ def test_a_law_that_cannot_be_compiled_is_told_with_its_line(
     assert len(message.splitlines()) == 1
 
 
+def test_what_a_law_gives_in_plain_python_is_told_beside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a_law.py").write_text(HEAD + "    return float(str(x))\n")
+    (tmp_path / "a_kernel.py").write_text(KERNEL)
+    a_law, a_kernel = (imported(tmp_path / f"{name}.py", monkeypatch) for name in ("a_law", "a_kernel"))
+    let_compiled_code_call([a_law.law])
+    laws = law_files([a_law.law], {a_law.law: a_law.law(1.5)})
+    with pytest.raises(
+        PluginError, match=r"a_law.py:9: cannot be compiled: .* In plain Python 'law' gives 1.5. Laws may"
+    ):
+        Entry(compiled(a_kernel.kernel), tmp_path / "lock", laws)(1.5)
+
+
 @pytest.mark.parametrize(
     ("body", "place", "reason"),
     [
