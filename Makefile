@@ -3,7 +3,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test lint benchmark docs clean
+# `make test` leaves out what is marked long; `make test-all` runs every test.
+.PHONY: run test test-all lint benchmark docs clean
 
 run: $(VENV)/.run
 	$(BIN)/clast run configs/crush_grain.yaml
@@ -12,6 +13,9 @@ test: $(VENV)/.test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/pytest -n 2 -m "not long"
+
+test-all: $(VENV)/.test
 	$(BIN)/pytest -n 2
 
 benchmark: $(VENV)/.test

@@ -14,6 +14,7 @@ from clast.engine import chunks
 from clast.results.curves import energies
 from clast.results.energy import incomplete, sentence
 from tests.scenes import COLLISION, CRUSH, write
+from tests.support.integrators import INTEGRATORS
 
 LEDGER = "output.ledger=true"
 CALM = [
@@ -57,7 +58,7 @@ def test_a_crush_closes_at_the_default_step(tmp_path: Path, restitution: float, 
     assert abs(ledger.closure) < most
 
 
-@pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_error_of_an_elastic_impact_falls_with_the_square_of_the_step(tmp_path: Path, integrator: str) -> None:
     errors = []
     for step in (8e-7, 4e-7, 2e-7):
@@ -91,7 +92,11 @@ def test_a_crush_with_breakage_friction_and_damping_closes(tmp_path: Path, model
 
 @pytest.mark.parametrize(
     "changes",
-    [["bonds.kinematics=incremental"], ["bonds.damping=0.1"], ["bonds.damping=0.1", "integrator=leapfrog"]],
+    [
+        ["bonds.kinematics=incremental"],
+        ["bonds.damping=0.1"],
+        pytest.param(["bonds.damping=0.1", "integrator=leapfrog"], marks=pytest.mark.long),
+    ],
     ids=["incremental", "damped", "damped, leapfrog"],
 )
 def test_a_crush_closes_however_its_bonds_are_measured_and_damped(tmp_path: Path, changes: list[str]) -> None:
@@ -101,7 +106,7 @@ def test_a_crush_closes_however_its_bonds_are_measured_and_damped(tmp_path: Path
     assert abs(simulation.ledger().closure) < 1e-4
 
 
-@pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_ledger_closes_amid_a_damped_impact_too(tmp_path: Path, integrator: str) -> None:
     """Half of the last step is not booked yet at its end: 2e-3 of the energy, were it left out."""
     simulation = Simulation(load(write(tmp_path, COLLISION), [LEDGER, f"integrator={integrator}"]))

@@ -14,9 +14,9 @@ from clast.config.scene import SceneConfig, from_mapping
 from clast.engine.kernels.layout import V, X
 from clast.errors import ConfigError, RunError
 from tests.core.test_resume import assert_same_bytes
+from tests.support.integrators import INTEGRATORS
 
 GLASS = {"density": 2500, "young_modulus": 1e8, "poisson_ratio": 0.25}
-INTEGRATORS = ("midstep", "leapfrog", "velocity_verlet")
 NO_OUTPUT = {"samples": 20, "frames": 0, "writers": []}
 
 

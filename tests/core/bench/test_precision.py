@@ -73,6 +73,7 @@ def test_a_plugins_integrator_is_measured_and_named_in_the_section(tmp_path):
     assert (tmp_path / "img" / "error_chain.png").stat().st_size > 10_000
 
 
+@pytest.mark.long
 def test_midstep_keeps_its_order_where_damping_takes_that_of_the_others():
     fine, errors = {}, {}
     for name in ("midstep", "velocity_verlet"):
@@ -84,6 +85,7 @@ def test_midstep_keeps_its_order_where_damping_takes_that_of_the_others():
     assert errors["velocity_verlet"][0] / errors["velocity_verlet"][1] < 2.5
 
 
+@pytest.mark.long
 def test_impacts_are_over_at_the_end():
     early, late = (
         observed(dataclasses.replace(IMPACT), task(), {"integrator": "midstep"}, steps) for steps in (800, 3200)
@@ -92,6 +94,7 @@ def test_impacts_are_over_at_the_end():
     assert relative(early, late) < 2e-3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kinematics", ["total", "incremental"])
 def test_the_bonded_pair_converges_quadratically_to_one_motion_with_every_integrator(kinematics):
     fine = observed(PAIR, task(), {"integrator": "midstep", "bond_kinematics": kinematics}, 20480)

@@ -18,6 +18,7 @@ from clast.errors import ConfigError
 from clast.results import checkpoint
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from tests.support.integrators import INTEGRATORS
 from tests.support.strategies import vectors
 
 R = 1e-3
@@ -66,7 +67,7 @@ def test_momentum_and_angular_momentum_are_what_was_applied(f: Any, g: Any, torq
     np.testing.assert_allclose(momentum, turned, atol=1e-12 * most * R, rtol=0)
 
 
-@pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_lone_sphere_gains_speed_and_spin_as_newton_and_euler_say(integrator: str) -> None:
     load = {"force": ["2 mN", 0, "-1 mN"], "torque": [0, "3 uN m", 0]}
     particles = after(chain(1, {0: load}, bonded=False, integrator=integrator)).world.particles
