@@ -32,7 +32,7 @@ from clast.errors import RunError
 from clast.observer import Ended, Observer
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
-from clast.scene.plan import blueprint
+from clast.scene.plan import blueprint, largest_reach
 from clast.scene.scene import Scene
 from clast.scene.start import check_start, outside_of
 from clast.scene.world import build_world, relieve
@@ -62,6 +62,8 @@ class Simulation:
         Which step is at what time.
     keeper : StepKeeper
         Takes smaller steps when contacts become stiffer.
+    reach : float
+        How far beyond touch contacts can hold at the most, in m.
     crew : Crew
         The threads that share the steps; the results do not depend on their number.
     world : World
@@ -94,6 +96,7 @@ class Simulation:
         self.keeper = StepKeeper(self.scene, self.plan)
         self.keeper.above = self.dt / self.limits.stable
         self.skin = choose_skin(self.scene)
+        self.reach = largest_reach(self.scene)
         self.gauge = Gauge(config)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         self.kernel: Kernel = assemble(self.plan, try_laws(self.scene, self.plan))
@@ -220,11 +223,11 @@ class Simulation:
         if self.plan.contacts is not None:
             search = self.config.neighbours.search.part
             if self.plan.contacts.between_particles:
-                pairs = find_pairs(particles, world.chunks, world.bonds, world.pairs, search, slack)
+                pairs = find_pairs(particles, world.chunks, world.bonds, world.pairs, search, slack + 0.5 * self.reach)
                 world = world._replace(pairs=pairs)
             if self.plan.walls:
-                walls, near_walls = world.walls, self.kernel.near_walls
-                near = find_wall_pairs(particles, walls, world.wall_pairs, near_walls, slack, self.skin.most)
+                walls, near_walls, far = world.walls, self.kernel.near_walls, self.skin.most + self.reach
+                near = find_wall_pairs(particles, walls, world.wall_pairs, near_walls, slack, far)
                 world = world._replace(wall_pairs=near)
         remember_positions(particles, world.walls, slack)
         self.world = world

@@ -83,6 +83,11 @@ class ContactPlan:
         return self.law.History is not None and (self.features.sliding or self.law.yields)
 
     @property
+    def reaches(self) -> bool:
+        """Whether contacts hold beyond touch."""
+        return self.law.reach is not None
+
+    @property
     def history(self) -> int:
         """Numbers that law and rolling resistance remember of a contact."""
         rolled = width(self.rolling.History) if self.rolling is not None else 0
@@ -166,11 +171,15 @@ class Blueprint:
 
     @property
     def remembered(self) -> int:
-        """Numbers that a contact keeps from one force evaluation to the next: its normal, its history, its drag."""
+        """Numbers that a contact keeps from one force evaluation to the next: its normal, its history, its drag.
+
+        A contact that holds beyond touch is known by what it keeps.
+        """
         books = self.ledger and self.contacts is not None and self.contacts.law.losses is not None
         drag = 6 if self.contacts is not None and self.contacts.features.rolling else 3
         kept = self.history + (drag if books else 0)
-        return 3 + kept if kept else 0
+        reaches = self.contacts is not None and self.contacts.reaches
+        return 3 + kept if kept or reaches else 0
 
     def functions(self) -> list[Callable[..., Any]]:
         """Return every function of the parts that is compiled."""
@@ -188,7 +197,7 @@ class Blueprint:
             ]
             found += [model.flow, model.overload, model.on_event]
         if self.contacts is not None:
-            found += [self.contacts.law.load, self.contacts.law.energy]
+            found += [self.contacts.law.load, self.contacts.law.energy, self.contacts.law.reach]
             found += [self.contacts.law.losses] if self.ledger else []
             found += _rolling_functions(self.contacts, self.ledger)
         found += [wall.nearest for wall in self.walls]

@@ -111,6 +111,8 @@ def _try_contact(scene: Scene, plan: Blueprint, call: Caller) -> None:
             rest = (touch, constants, history, load, after, 1e-6, plan.contacts.choices, NO_DRAG)
             call(law.losses, ContactLosses, *rest)
         call(law.energy, float, touch, constants, history, plan.contacts.choices)
+        if law.reach is not None:
+            call(law.reach, float, constants, touch.radius)
         if plan.contacts.rolling is not None:
             _try_rolling(scene, plan, touch, pair, load.limit, call)
 

@@ -10,8 +10,8 @@ from clast.engine.records import construct, construct_from_fields, destruct, fie
 from clast.engine.slots_pieces import bind, bind_record, function
 
 NAMES = (
-    "contact_load contact_energy contact_losses read_contact_constants row_constants read_history write_history "
-    "carry_history fresh_history load_history store_history no_losses"
+    "contact_load contact_energy contact_losses contact_reach read_contact_constants row_constants read_history "
+    "write_history carry_history fresh_history load_history store_history no_losses"
 )
 
 
@@ -60,6 +60,7 @@ def _law(contacts: ContactPlan, prefix: str, choices: str, ledger: bool) -> list
         bind(f"{prefix}_load", contacts.law.load),
         bind(f"{prefix}_energy", contacts.law.energy),
         bind(f"{prefix}_losses", contacts.law.losses if ledger else None),
+        bind(f"{prefix}_reach", contacts.law.reach),
     ]
 
 
@@ -81,8 +82,10 @@ def _joined(contacts: ContactPlan) -> list[str]:
     assert contacts.rolling is not None
     stored = contacts.rolling.History is not None
     now = "law_stiffness(constants[0], touch.radius, touch.overlap)" if stored else "0.0"
-    before = "law_stiffness(constants[0], touch.radius, overlap_before(touch))" if stored else "0.0"
-    stiff = "law_stiffness(constants[0], touch.radius, max(touch.overlap, 0.0))"
+    then = "stretch_before(touch)" if contacts.reaches else "overlap_before(touch)"
+    before = f"law_stiffness(constants[0], touch.radius, {then})" if stored else "0.0"
+    overlap = "touch.overlap" if contacts.reaches else "max(touch.overlap, 0.0)"
+    stiff = f"law_stiffness(constants[0], touch.radius, {overlap})"
     wound = f" + rolling_energy(constants[1], history[1], touch.radius, {stiff})" if stored else ""
     plastic = ", lost.plastic" if contacts.law.yields else ""
     pressing = f"pressing = Pressing(load.limit, {now}, {before})"
@@ -103,6 +106,7 @@ def _joined(contacts: ContactPlan) -> list[str]:
             "touch, constants, history, choices",
             f"return law_energy(touch, constants[0], history[0], choices[0]){wound}",
         ),
+        function("contact_reach", "constants, radius", "return law_reach(constants[0], radius)"),
         function(
             "contact_losses",
             "touch, constants, before, load, after, dt, choices, drag",

@@ -17,7 +17,7 @@ from importlib import import_module
 from clast.engine.compiler import inlined
 from clast.maths.rotation import IDENTITY, spin_about, swing
 from clast.maths.vec3 import ZERO, add
-from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Drag, overlap_before
+from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Drag, overlap_before, stretch_before
 from clast.parts.integrator import Stage
 from clast.parts.rolling_resistance import Pressing, RollingLoad
 
@@ -98,6 +98,7 @@ def _flags(plan: Blueprint) -> str:
         "SPIN": plan.spin,
         "VELOCITY_FORCES": plan.velocity_forces,
         "YIELDS": contacts is not None and contacts.law.yields,
+        "REACHES": contacts is not None and contacts.reaches,
         "TURNS": contacts is not None and contacts.turns(plan.ledger),
         "HISTORY": plan.history,
         "CONTACT_CONSTANTS": 0 if contacts is None else contacts.constants,

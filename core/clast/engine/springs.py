@@ -12,7 +12,7 @@ from clast.engine.response import Response, respond, rolling_response
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
-from clast.scene.plan import bond_stiffness, damping_coefficients, material_pairs, wall_shapes
+from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs, wall_shapes
 from clast.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -116,7 +116,10 @@ def bond_springs(scene: Scene, bodies: Bodies, intact: NDArray[np.bool_]) -> Spr
 def contact_springs(
     scene: Scene, responses: Responses, bodies: Bodies, pairs: Integers, instead: NDArray[np.bool_]
 ) -> Springs:
-    """Return the springs of the pairs (p, 2) that touch, but for those in whose stead a bond holds, (m,) bool."""
+    """Return the springs of the pairs (p, 2) that touch, but for those in whose stead a bond holds, (m,) bool.
+
+    With a law whose contacts hold beyond touch, all pairs within their reach count, whether they have touched or not.
+    """
     if not responses or len(pairs) == 0:
         return no_springs()
     if instead.any():
@@ -126,7 +129,9 @@ def contact_springs(
     distance = np.sqrt(d[:, 0] ** 2 + d[:, 1] ** 2 + d[:, 2] ** 2)
     reach = bodies.radius[i] + bodies.radius[j]
     overlap = reach - distance - overlaps_at_rest(scene, pairs)
-    touching = (overlap > 0.0) & (distance > 0.0) & (bodies.inverse_mass[i] + bodies.inverse_mass[j] > 0.0)
+    touching = (
+        (overlap > -largest_reach(scene)) & (distance > 0.0) & (bodies.inverse_mass[i] + bodies.inverse_mass[j] > 0.0)
+    )
     i, j, overlap, reach = i[touching], j[touching], overlap[touching], reach[touching]
     d, distance = d[touching], distance[touching]
     share = distance / reach if scene.config.contacts and scene.config.contacts.lever == "contact_point" else 1.0
@@ -154,11 +159,11 @@ def wall_springs(scene: Scene, responses: Responses, bodies: Bodies, near: Integ
     shapes = wall_shapes(scene)
     names = list(scene.config.materials)
     materials = [names.index(wall.material) for wall in scene.config.walls.values()]
-    rows = []
+    rows, reach = [], largest_reach(scene)
     for w, k in near.tolist() if responses else ():
         nearest, shape = shapes[w]
         found = nearest(shape, tuple((bodies.position[k] - displacement[w]).tolist()))
-        if found.distance < bodies.radius[k] and bodies.inverse_mass[k] > 0.0:
+        if found.distance < bodies.radius[k] + reach and bodies.inverse_mass[k] > 0.0:
             rows.append((k, materials[w], found.distance, *found.normal))
     if not rows:
         return no_springs()

@@ -16,7 +16,7 @@ class Touch(NamedTuple):
     Attributes
     ----------
     overlap : float
-        δ > 0 in m.
+        δ > 0 in m; with a law that has a ``reach``, down to −reach while the contact holds.
     normal : vector
         Unit vector from i to j.
     velocity : vector
@@ -55,7 +55,12 @@ class Touch(NamedTuple):
 
 def overlap_before(touch: Touch) -> float:
     """Return the overlap at the forces before in m, 0 where there was none."""
-    return max(touch.overlap + dot(touch.moved, touch.normal), 0.0)
+    return max(stretch_before(touch), 0.0)
+
+
+def stretch_before(touch: Touch) -> float:
+    """Return the overlap at the forces before in m, below 0 where the contact held beyond touch."""
+    return touch.overlap + dot(touch.moved, touch.normal)
 
 
 class ContactLoad(NamedTuple):
@@ -169,6 +174,10 @@ class ContactLaw:
         with the contact plane. Stored only when sliding friction is present, or where the law ``yields``.
     yields : bool
         Whether the normal force depends on the History; ``losses`` then tell what is ``plastic``.
+    reach : (constants, radius) -> float, optional
+        How far beyond touch a contact that has begun still holds, in m, for an effective radius; never less for a
+        larger radius. The contact begins at overlap 0 and ends at −reach. ``energy`` counts from the touch; what it is
+        as the contact ends is lost. Without it, contacts end where they begin.
     limits_rolling : bool
         Whether ``load`` tells the ``limit`` that a rolling resistance goes by; without it, rolling friction is the
         law's own business.
@@ -186,4 +195,5 @@ class ContactLaw:
     losses: Callable[..., ContactLosses] | None = None
     damping: Callable[[Any], bool] | None = None
     yields: bool = False
+    reach: Callable[..., float] | None = None
     limits_rolling: bool = False

@@ -167,6 +167,16 @@ def material_pairs(scene: Scene) -> list[tuple[int, int, MaterialPair]]:
     return found
 
 
+def largest_reach(scene: Scene) -> float:
+    """Return how far beyond touch any contact of a scene can hold, in m; 0 where contacts end as they begin."""
+    contacts = scene.config.contacts
+    if contacts is None or contacts.law.part.reach is None:
+        return 0.0
+    law, largest = contacts.law, float(scene.radius.max())
+    pairs = material_pairs(scene)
+    return max(float(law.part.reach(law.part.constants(law.params, pair), largest)) for _, _, pair in pairs)
+
+
 def applied_loads(scene: Scene) -> Floats:
     """Return the constant force and torque on each particle, (n, 6); no rows where none acts."""
     loads = np.column_stack([scene.force, scene.torque])

@@ -61,7 +61,56 @@ def claims(law: ContactLaw, params: Any) -> list[Claim]:
             numbers(0.01, 1.0),
         ),
         claim("compiled code gives the same bits as plain Python", lambda: compiled_alike(whole)),
+        *(_beyond_touch(bare, whole) if law.reach is not None else ()),
     ]
+
+
+def _beyond_touch(bare: Contact, whole: Contact) -> list[Claim]:
+    """Return what a law must keep to whose contacts hold beyond touch."""
+    shares, radii = numbers(0.001, 0.999), numbers(1e-5, 1e-3)
+    return [
+        claim(
+            "beyond touch, the force is the derivative of the energy, and softer than the stiffness told",
+            lambda share: _held(bare, share),
+            shares,
+        ),
+        claim(
+            "larger bodies hold no less far", lambda r, s: _reaches_further(whole, min(r, s), max(r, s)), radii, radii
+        ),
+        claim("beyond touch, compiled code gives the same bits as plain Python", lambda: compiled_beyond(whole)),
+    ]
+
+
+def _reach(law: Contact, radius: float) -> float:
+    assert law.law.reach is not None
+    return float(law.law.reach(law.constants, radius))
+
+
+def _held(law: Contact, share: float) -> None:
+    reach = _reach(law, 0.5 * RADIUS)
+    at, h = -share * reach, 1e-4 * min(share, 1.0 - share) * reach
+    ends = [resting(at + side * h) for side in (1.0, -1.0)]
+    up, down = (law.energy(each, law.fresh) for each in ends)
+    force = repulsion(law.answer(resting(at), law.fresh)[0], resting(at))
+    told = (up - down) / (2.0 * h)
+    must(
+        abs(told - force) <= 1e-5 * abs(force),
+        lambda: f"{-at:g} m beyond touch: the derivative is {told:g} N, the force {force:g} N",
+    )
+    high, low = (repulsion(law.answer(each, law.fresh)[0], each) for each in ends)
+    slope, stiffness = (high - low) / (2.0 * h), float(law.law.stiffness(law.constants, 0.5 * RADIUS, at))
+    must(
+        slope <= stiffness * (1.0 + 1e-3),
+        lambda: f"{-at:g} m beyond touch: the slope is {slope:g} N/m, 'stiffness' tells {stiffness:g}",
+    )
+
+
+def _reaches_further(law: Contact, small: float, large: float) -> None:
+    near, far = _reach(law, small), _reach(law, large)
+    must(
+        0.0 <= near <= far * (1.0 + 1e-12),
+        lambda: f"'reach' is {near:g} m for a radius of {small:g} m, {far:g} m for {large:g} m",
+    )
 
 
 def _numbers(load: ContactLoad) -> list[float]:
@@ -192,6 +241,13 @@ def _slider_takes(law: Contact, overlap: float, way: Vec, far: float) -> None:
 def compiled_alike(law: Contact, rows: int = 500) -> None:
     """Compare load and energy along random touches, compiled and in plain Python."""
     same_bits(_sweep(law), [law.law.load, law.law.energy], (rows, 10), random_touches(rows), law.constants)
+
+
+def compiled_beyond(law: Contact, rows: int = 500) -> None:
+    """Compare load and energy along random contacts that hold beyond touch, compiled and in plain Python."""
+    found = random_touches(rows)
+    found[:, 0] = [-share * _reach(law, r) for share, r in zip(np.linspace(0.0, 1.0, rows), found[:, 13], strict=True)]
+    same_bits(_sweep(law), [law.law.load, law.law.energy], (rows, 10), found, law.constants)
 
 
 def _sweep(law: Contact) -> Callable[..., None]:

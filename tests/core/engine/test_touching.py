@@ -8,8 +8,8 @@ from clast.maths.vec3 import dot, scale
 from tests.support.strategies import directions, numbers, vectors
 
 
-def since_touch(moved, n, overlap):
-    return scale(share_since_touch(moved, n, overlap), moved)
+def since_touch(moved, n, overlap, held=False):
+    return scale(share_since_touch(moved, n, overlap, held), moved)
 
 
 def test_of_a_displacement_that_closes_a_gap_only_the_part_after_touch_counts():
@@ -20,6 +20,13 @@ def test_of_a_displacement_that_closes_a_gap_only_the_part_after_touch_counts():
 @pytest.mark.parametrize("closed", [-1.0, 0.0, 0.5, 1.0])
 def test_all_of_it_counts_when_they_touched_before(closed):
     assert since_touch((8.0, 0.0, -closed), (0.0, 0.0, 1.0), 1.0) == (8.0, 0.0, -closed)
+
+
+@pytest.mark.parametrize("overlap", [-1.0, 1.0])
+@pytest.mark.parametrize("closed", [-8.0, -0.5, 0.5, 8.0])
+def test_all_of_it_counts_when_a_neck_held_them_together(overlap, closed):
+    moved = (8.0, 0.0, -closed)
+    assert since_touch(moved, (0.0, 0.0, 1.0), overlap, held=True) == moved
 
 
 @given(moved=vectors(1.0), n=directions(), overlap=numbers(1e-6, 1.0))

@@ -20,6 +20,7 @@ from .layout import (
     DRIFT,
     DV,
     FIRST,
+    HELD,
     II,
     IM,
     INVERSE_INERTIA,
@@ -43,6 +44,7 @@ from .layout import (
     V,
     W,
 )
+from .parting import jump_at_touch
 from .rows import add_to_row, own_ends, take_from_row
 from .slots import (
     CHOICES,
@@ -51,6 +53,7 @@ from .slots import (
     HISTORY,
     ONE_MATERIAL,
     ONE_SIZE,
+    REACHES,
     REMEMBERS,
     RESTS,
     ROLLS,
@@ -59,10 +62,8 @@ from .slots import (
     VELOCITY_FORCES,
     YIELDS,
     carry_history,
-    contact_energy,
     contact_load,
     contact_losses,
-    load_history,
     read_contact_constants,
     read_history,
     write_history,
@@ -115,6 +116,8 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
             scratch[(NORMAL + c) * LANES + lane] = pairs.history[k, c]
         for c in range(HISTORY):
             scratch[(HISTORY_BASE + c) * LANES + lane] = pairs.history[k, 3 + c]
+    if REACHES:
+        scratch[HELD * LANES + lane] = pairs.touching[k]
     if TURNS:
         for c in range(3):
             scratch[(TURNED + c) * LANES + lane] = particles.twist[j, W + c] - particles.twist[i, W + c]
@@ -146,7 +149,11 @@ def read_touch(scratch: Floats, lane: int, numbers: Numbers, dt: float) -> tuple
     lever_i, lever_j = lever * r_i, lever * r_j
     if RESTS:
         overlap = overlap - scratch[REST * LANES + lane]
-    overlap = max(overlap, ROUNDING * (r_i + r_j))
+    held = False
+    if REACHES:
+        held = scratch[HELD * LANES + lane] != 0.0
+    if not held:
+        overlap = max(overlap, ROUNDING * (r_i + r_j))
     velocity, w_i, w_j = ZERO, ZERO, ZERO
     if VELOCITY_FORCES:
         velocity = vector(scratch, DV, lane)
@@ -157,7 +164,7 @@ def read_touch(scratch: Floats, lane: int, numbers: Numbers, dt: float) -> tuple
     if REMEMBERS:
         rolled = cross(scale(lever, vector(scratch, TURNING, lane)), n)
         moved = scale(dt, sub(vector(scratch, DRIFT, lane), rolled))
-        share_moved = share_since_touch(moved, n, overlap)
+        share_moved = share_since_touch(moved, n, overlap, held)
         moved = scale(share_moved, moved)
     turned = scale(dt, vector(scratch, TURNED, lane)) if TURNS else ZERO
     touch = Touch(overlap, n, velocity, w_i, w_j, r_i * r_j * share, r_i, r_j, per_mass, per_inertia, moved, turned)
@@ -174,18 +181,6 @@ def read_drag(scratch: Floats, lane: int) -> Drag:
 def kept_drag(histories: Floats, k: int) -> Drag:
     """Return the drag that contact k had at the forces before."""
     return Drag(row(histories, k, 3 + HISTORY), row(histories, k, 6 + HISTORY) if ROLLS else ZERO)
-
-
-@inlined
-def energy_left(r_i: float, r_j: float, constants: Any, histories: Floats, k: int) -> float:
-    """Return the elastic energy that contact k still holds as it comes apart, in J: that of springs across it.
-
-    A tangential spring whose stiffness does not vanish with the overlap may be stretched then, and snaps.
-    """
-    radius = r_i if r_j == 0.0 else r_i * r_j / (r_i + r_j)
-    n = row(histories, k, 0)
-    parting = Touch(0.0, n, ZERO, ZERO, ZERO, radius, r_i, r_j, 1.0, 1.0, ZERO, ZERO)
-    return contact_energy(parting, constants, load_history(histories[k]), CHOICES)  # type: ignore[no-any-return]
 
 
 @inlined
@@ -213,6 +208,9 @@ def contact_lane(scratch: Floats, lane: int, shared: Any, numbers: Numbers, dt: 
         scratch[(LOST + 1) * LANES + lane] = lost.sliding
         scratch[(LOST + 2) * LANES + lane] = lost.rolling
         scratch[(LOST + 3) * LANES + lane] = lost.stiffening
+        if REACHES:
+            jump = jump_at_touch(touch, constants, history, load.force, lost.drag, share_moved)
+            scratch[(LOST + 3) * LANES + lane] = lost.stiffening + jump
         if YIELDS:
             scratch[(LOST + 4) * LANES + lane] = lost.plastic
         put(scratch, DRAG, lane, lost.drag.force)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from math import sqrt
+from typing import Any
+
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
 from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
-from .contact_lane import DRAG_NUMBERS, contact_lane, energy_left, gather, kept_drag, radii, read_touch, scatter
+from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
 from .lanes import put, row, vector
 from .layout import (
     FIRST,
@@ -26,6 +29,7 @@ from .layout import (
     W,
     X,
 )
+from .parting import energy_left, energy_let_go, reach_of, still
 from .slots import (
     BONDED_PAIRS_TOUCH,
     CHOICES,
@@ -33,6 +37,7 @@ from .slots import (
     CONTACT_LOSSES,
     HISTORY,
     ONE_SIZE,
+    REACHES,
     REMEMBERS,
     RESTS,
     ROLLS,
@@ -48,7 +53,7 @@ AHEAD = 32
 
 @inlined
 def meet(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: Floats, lane: int) -> bool:
-    """Copy the distance and the radii of pair k into a lane; tell whether the particles touch."""
+    """Copy the distance and the radii of pair k into a lane; tell whether the particles touch, or hold beyond touch."""
     pose = particles.pose
     i, j = pairs.first[k], pairs.second[k]
     d = (pose[j, X] - pose[i, X], pose[j, X + 1] - pose[i, X + 1], pose[j, X + 2] - pose[i, X + 2])
@@ -61,7 +66,16 @@ def meet(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: 
     if RESTS:
         scratch[REST * LANES + lane] = pairs.rest[k]
         reach -= pairs.rest[k]
+    if REACHES and pairs.touching[k] != 0 and dot(d, d) >= reach * reach:
+        reach += reach_of(r_i, r_j, pair_constants(particles, pairs, k, numbers))
     return not dot(d, d) >= reach * reach
+
+
+@inlined
+def pair_constants(particles: Particles, pairs: Pairs, k: int, numbers: Numbers) -> Any:
+    """Return the constants of pair k."""
+    i, j = int(particles.body[pairs.first[k], MATERIAL]), int(particles.body[pairs.second[k], MATERIAL])
+    return row_constants(numbers.contact_table[i, j])
 
 
 @inlined
@@ -72,11 +86,25 @@ def book_parting(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, d
     book[VISCOUS] += 0.5 * dt * dot(last.force, sub(row(twist, j, V), row(twist, i, V)))
     if ROLLS:
         book[ROLLING] += 0.5 * dt * dot(last.torque, sub(row(twist, j, W), row(twist, i, W)))
-    if HISTORY > 0:
+    if REACHES:
+        book[STIFFENING] += pull_off_loss(particles, pairs, k, numbers, dt)
+    elif HISTORY > 0:
         r_i, r_j = radii(particles, i, j, numbers)
-        materials = int(particles.body[i, MATERIAL]), int(particles.body[j, MATERIAL])
-        constants = row_constants(numbers.contact_table[materials])
+        constants = pair_constants(particles, pairs, k, numbers)
         book[STIFFENING] += energy_left(r_i, r_j, constants, pairs.history, k)
+
+
+@inlined
+def pull_off_loss(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, dt: float) -> float:
+    """Return the energy in J that pair k loses as it ends beyond touch."""
+    i, j = pairs.first[k], pairs.second[k]
+    r_i, r_j = radii(particles, i, j, numbers)
+    d = sub(row(particles.pose, j, X), row(particles.pose, i, X))
+    distance = sqrt(dot(d, d))
+    n = scale(1.0 / distance, d)
+    opened = dt * dot(sub(row(particles.twist, j, V), row(particles.twist, i, V)), n)
+    then = still(r_i, r_j, r_i + r_j - distance - pairs.rest[k] + opened, n)
+    return energy_let_go(then, opened, pair_constants(particles, pairs, k, numbers), pairs.history, k, dt)
 
 
 @inlined
@@ -108,8 +136,8 @@ def waking_energy(
     put(scratch, D, lane, sub(now, back))
     touch, _, _, _ = read_touch(scratch, lane, numbers, 0.0)
     put(scratch, D, lane, now)
-    materials = int(particles.body[pairs.first[k], MATERIAL]), int(particles.body[pairs.second[k], MATERIAL])
-    energy: float = contact_energy(touch, row_constants(numbers.contact_table[materials]), fresh_history(), CHOICES)
+    constants = pair_constants(particles, pairs, k, numbers)
+    energy: float = contact_energy(touch, constants, fresh_history(), CHOICES)
     return energy
 
 

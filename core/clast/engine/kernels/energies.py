@@ -72,7 +72,7 @@ from .slots import (
     row_constants,
     wall_nearest,
 )
-from .wall_sweep import wall_touch
+from .wall_sweep import wall_constants, wall_reach, wall_touch
 
 SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 """Time since the last force evaluation when a step is over, as a fraction of the step."""
@@ -270,16 +270,17 @@ def wall_energy(
     x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
     near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
     radius = particles.pose[k, RADIUS]
-    if near.distance >= radius:
+    if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
         return 0.0
     lever = radius - numbers.lever * (radius - near.distance)
-    touch, share = wall_touch(particles, k, near.distance, near.normal, lever, row(walls.velocity, w, 0), time)
+    held = pairs.touching[p] != 0
+    touch, share = wall_touch(particles, k, near.distance, near.normal, lever, row(walls.velocity, w, 0), held, time)
     history = fresh_history()
-    if HISTORY > 0 and pairs.touching[p] != 0:
+    if HISTORY > 0 and held:
         spin = 0.5 * dot(touch.spin_i, near.normal) * time
         history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), near.normal, spin)
-    constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
-    drag = kept_drag(pairs.history, p) if CONTACT_LOSSES and pairs.touching[p] != 0 else NO_DRAG
+    constants = wall_constants(particles, walls, numbers, k, w)
+    drag = kept_drag(pairs.history, p) if CONTACT_LOSSES and held else NO_DRAG
     energy, since = energy_of(touch, constants, history, time, drag)
     lost[VISCOUS] += since.viscous / share
     lost[SLIDING] += since.sliding

@@ -28,7 +28,8 @@ ENERGY = BOND_F  # where loads are not computed
 
 # scratch of the contact sweep
 D, RI, RJ, IM, II, REST, DV, WI, WJ, NORMAL = 0, 3, 4, 5, 6, 7, 8, 11, 14, 17
-CONTACT_F, CONTACT_MI, CONTACT_MJ, DRIFT, TURNING, LOST, DRAG, TURNED, CONTACT_FREE = 20, 23, 26, 29, 32, 35, 40, 46, 49
+CONTACT_F, CONTACT_MI, CONTACT_MJ, DRIFT, TURNING, LOST, DRAG, TURNED = 20, 23, 26, 29, 32, 35, 40, 46
+HELD, CONTACT_FREE = 49, 50
 
 # energy ledger, in J: what contacts (in the order of ContactLosses) and bonds dissipate, the work done on the scene,
 # what left with particles, what was there at the start, what contacts hold that appear as bonds break, and what the

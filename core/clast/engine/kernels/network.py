@@ -31,7 +31,7 @@ from .slots import (
     row_constants,
     wall_nearest,
 )
-from .wall_sweep import wall_touch
+from .wall_sweep import wall_constants, wall_reach, wall_touch
 
 FREE_LANES = max(HISTORY_BASE + HISTORY + 1, CONTACT_FREE + 1) * LANES
 
@@ -121,16 +121,17 @@ def write_wall_contact(world: World, p: int, time: float, place: int, output: Fl
     w, k = pairs.wall[p], pairs.particle[p]
     centre, radius = row(particles.pose, k, X), particles.pose[k, RADIUS]
     near = wall_nearest(walls.shape_kind[w], walls.shape[w], sub(centre, row(walls.displacement, w, 0)))
-    if near.distance >= radius:
+    if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
         return False
     if place < len(output):
         n, lever = near.normal, radius - numbers.lever * (radius - near.distance)
-        touch, _ = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), time)
+        held = pairs.touching[p] != 0
+        touch, _ = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), held, time)
         history = fresh_history()
-        if HISTORY > 0 and pairs.touching[p] != 0:
+        if HISTORY > 0 and held:
             spin = 0.5 * dot(touch.spin_i, n) * time
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
-        constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
+        constants = wall_constants(particles, walls, numbers, k, w)
         load, _ = contact_load(touch, constants, history, law_time(time, numbers.dt), CHOICES)
         write(output[place], float(k), -1.0 - w, add(centre, scale(near.distance, n)), load.force, n)
     return True

@@ -41,6 +41,7 @@ REMEMBERS = False
 ROLLS = False
 TURNS = False
 YIELDS = False
+REACHES = False
 CONTACT_LOSSES = False
 ORIENTATION = False
 SPIN = False
@@ -59,6 +60,6 @@ bond_measure = bond_end_loads = bond_load = bond_flow = bond_failure = bond_mode
 bond_overload = bond_on_event = bond_beyond = nothing
 read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
-contact_load = contact_energy = contact_losses = read_contact_constants = row_constants = nothing
+contact_load = contact_energy = contact_losses = contact_reach = read_contact_constants = row_constants = nothing
 read_history = write_history = carry_history = fresh_history = load_history = store_history = no_losses = nothing
 wall_nearest = wall_velocity = wall_answer = body_acceleration = braking = nothing

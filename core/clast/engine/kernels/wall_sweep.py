@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
 from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
 from clast.parts.contact_law import NO_DRAG, Touch
 
-from .contact_lane import energy_left, kept_drag
+from .contact_lane import kept_drag
 from .lanes import row
 from .layout import (
     INVERSE_INERTIA,
@@ -26,11 +28,13 @@ from .layout import (
     X,
 )
 from .motion import book_wall_work
+from .parting import energy_left, energy_let_go, jump_at_touch, reach_of, still
 from .slots import (
     CHOICES,
     CONTACT_LOSSES,
     CURVED_WALLS,
     HISTORY,
+    REACHES,
     REMEMBERS,
     ROLLS,
     SPIN,
@@ -50,17 +54,36 @@ from .touching import share_since_touch
 
 
 @inlined
+def wall_reach(particles: Particles, walls: Walls, pairs: WallPairs, numbers: Numbers, p: int) -> float:
+    """Return the distance in m from which on wall pair p does not touch: beyond the radius where a contact holds on."""
+    w, k = pairs.wall[p], pairs.particle[p]
+    radius: float = particles.pose[k, RADIUS]
+    if REACHES and pairs.touching[p] != 0:
+        radius += reach_of(radius, 0.0, wall_constants(particles, walls, numbers, k, w))
+    return radius
+
+
+@inlined
+def wall_constants(particles: Particles, walls: Walls, numbers: Numbers, k: int, w: int) -> Any:
+    """Return the constants of particle k and wall w."""
+    return row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
+
+
+@inlined
 def wall_touch(
-    particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec, dt: float
+    particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec, held: bool, dt: float
 ) -> tuple[Touch, float]:
-    """Return the contact of particle k (i) with a wall (j), and the share of the way since touch."""
+    """Return the contact of particle k (i) with a wall (j), and the share of the way since touch.
+
+    ``held`` tells whether the contact was there at the forces before; it counts where contacts hold beyond touch.
+    """
     seen, body = particles.seen, particles.body
     radius = particles.pose[k, RADIUS]
     velocity, spin, moved, share_moved = ZERO, ZERO, ZERO, 1.0
     if REMEMBERS:
         drift = sub(wall_velocity, row(particles.twist, k, V))
         slip = sub(drift, cross(scale(lever, row(particles.twist, k, W)), n))
-        share_moved = share_since_touch(scale(dt, slip), n, radius - distance)
+        share_moved = share_since_touch(scale(dt, slip), n, radius - distance, REACHES and held)
         moved = scale(share_moved * dt, slip)
     if VELOCITY_FORCES:
         velocity = sub(wall_velocity, row(seen, k, V))
@@ -108,9 +131,23 @@ def book_parting(
     last, apart = kept_drag(pairs.history, p), sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
     book[VISCOUS] += 0.5 * dt * dot(last.force, apart)
     book[ROLLING] -= 0.5 * dt * dot(last.torque, row(particles.twist, k, W))
-    if HISTORY > 0:
-        constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
+    if REACHES:
+        book[STIFFENING] += pull_off_loss(walls, pairs, particles, numbers, p, dt)
+    elif HISTORY > 0:
+        constants = wall_constants(particles, walls, numbers, k, w)
         book[STIFFENING] += energy_left(particles.pose[k, RADIUS], 0.0, constants, pairs.history, p)
+
+
+@inlined
+def pull_off_loss(walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, p: int, dt: float) -> float:
+    """Return the energy in J that wall pair p loses as it ends beyond touch."""
+    w, k = pairs.wall[p], pairs.particle[p]
+    x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
+    near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
+    radius = particles.pose[k, RADIUS]
+    opened = dt * dot(sub(row(walls.velocity, w, 0), row(particles.twist, k, V)), near.normal)
+    then = still(radius, 0.0, radius - near.distance + opened, near.normal)
+    return energy_let_go(then, opened, wall_constants(particles, walls, numbers, k, w), pairs.history, p, dt)
 
 
 @routine
@@ -123,19 +160,20 @@ def sweep_walls(
         x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
         near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
         radius = particles.pose[k, RADIUS]
-        if near.distance >= radius:
+        if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
             if CONTACT_LOSSES and pairs.touching[p] != 0:
                 book_parting(walls, pairs, particles, numbers, p, book, dt)
             pairs.touching[p] = 0
             continue
         n = near.normal
         lever = radius - numbers.lever * (radius - near.distance)
-        touch, share_moved = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), dt)
+        held = pairs.touching[p] != 0
+        touch, share_moved = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), held, dt)
         history = fresh_history()
-        if HISTORY > 0 and pairs.touching[p] != 0:
+        if HISTORY > 0 and held:
             spin = 0.5 * dot(touch.spin_i, n) * dt
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
-        constants = row_constants(numbers.contact_table[int(particles.body[k, MATERIAL]), walls.material[w]])
+        constants = wall_constants(particles, walls, numbers, k, w)
         load, kept = contact_load(touch, constants, history, abs(dt), CHOICES)  # some schemes step back
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if CURVED_WALLS:
@@ -145,12 +183,14 @@ def sweep_walls(
                 pairs.history[p, c] = n[c]
             store_history(pairs.history[p], kept)
         if CONTACT_LOSSES:
-            drag = kept_drag(pairs.history, p) if pairs.touching[p] != 0 else NO_DRAG
+            drag = kept_drag(pairs.history, p) if held else NO_DRAG
             lost = contact_losses(touch, constants, history, load, kept, dt, CHOICES, drag)
             book[VISCOUS] += lost.viscous / share_moved  # drag acts all the way that the step is long
             book[SLIDING] += lost.sliding
             book[ROLLING] += lost.rolling
             book[STIFFENING] += lost.stiffening
+            if REACHES:
+                book[STIFFENING] += jump_at_touch(touch, constants, history, load.force, lost.drag, share_moved)
             if YIELDS:
                 book[PLASTIC] += lost.plastic
             for c in range(3):
