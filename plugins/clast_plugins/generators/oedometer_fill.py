@@ -17,7 +17,7 @@ from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.filling import kept
-from clast_plugins.generators.filling.account import account, too_full
+from clast_plugins.generators.filling.account import Bed, account, too_full
 from clast_plugins.generators.filling.dice import random_turns
 from clast_plugins.generators.filling.foresee import foresee
 from clast_plugins.generators.filling.fraction import Fraction
@@ -27,6 +27,8 @@ from clast_plugins.generators.filling.room import Room
 
 Floats = NDArray[np.float64]
 TOLERANCE = 1e-4
+TRIES = 4
+"""How often a bed is poured, with other random numbers each time, before it is said not to fit."""
 
 
 class OedometerFill(Params):
@@ -38,7 +40,8 @@ class OedometerFill(Params):
 
     Filling: grains fall as single spheres under gravity until they are at rest; then the agglomerates take their
     places, turned at random, and settle as rigid bodies without friction until they hardly sink any more; a lid presses
-    down what stands out above ``height``; last, without weight, what overlaps is pushed apart.
+    down what stands out above ``height``; last, without weight, what overlaps is pushed apart. Where an overlap stays,
+    the same grains are poured again with the next random numbers of the seed, four times in all.
 
     Limits: friction acts while spheres are poured and not while agglomerates settle, so a bed is as dense as a well
     shaken one; grains lie free of stress at the start, without their weight.
@@ -122,19 +125,10 @@ def _keys(params: OedometerFill, site: Site) -> dict[str, Any]:
 
 
 def _filled(params: OedometerFill, site: Site) -> Packing:
-    from clast_plugins.generators.filling.pour import pour
-    from clast_plugins.generators.filling.settle import settle
-
     stream = np.random.Philox(params.seed)
-    room = params.room
     recipe = make_recipe(params.fractions, params.grains, params.mass, site, stream)
-    reach = recipe.scale * np.array([each.reach for each in recipe.template])
-    poured = pour(reach, room, params.friction, stream)
-    grains = _agglomerates(recipe, reach, poured, random_turns(stream, len(reach)))
-    allowed = params.max_overlap or TOLERANCE * 2.0 * float(grains.radius.min())
-    settled = settle(grains, room, params.height, allowed)
-    if settled.overlap > allowed:
-        raise PackingError(too_full(params.height, settled.overlap, allowed), ("height",) if params.height else ())
+    bed = _bed(params, recipe, stream)
+    grains = bed.grains
     position = grains.positions()
     n = len(position)
     return Packing(
@@ -146,8 +140,33 @@ def _filled(params: OedometerFill, site: Site) -> Packing:
         prescribed=np.zeros(n, np.bool_),
         grain=grains.grain,
         relieved=any(each.relieved for each in recipe.template),
-        report=account(params.fractions, room, params.height, recipe, grains, poured, settled),
+        report=account(params.fractions, params.room, params.height, recipe, bed),
     )
+
+
+def _bed(params: OedometerFill, recipe: Recipe, stream: np.random.Philox) -> Bed:
+    """Pour and settle the grains of a recipe, again and again where an overlap stays.
+
+    One grain caught between the lid and its neighbours keeps a bed from fitting that would fit otherwise.
+
+    Raises
+    ------
+    PackingError
+        If an overlap stays every time.
+    """
+    from clast_plugins.generators.filling.pour import pour
+    from clast_plugins.generators.filling.settle import settle
+
+    reach = recipe.scale * np.array([each.reach for each in recipe.template])
+    for tried in range(1, TRIES + 1):
+        poured = pour(reach, params.room, params.friction, stream)
+        grains = _agglomerates(recipe, reach, poured, random_turns(stream, len(reach)))
+        allowed = params.max_overlap or TOLERANCE * 2.0 * float(grains.radius.min())
+        settled = settle(grains, params.room, params.height, allowed)
+        if settled.overlap <= allowed:
+            return Bed(grains, poured, settled, tried)
+    text = too_full(params.height, settled.overlap, allowed, TRIES)
+    raise PackingError(text, ("height",) if params.height else ())
 
 
 def _agglomerates(recipe: Recipe, reach: Floats, poured: Floats, turned: Floats) -> Grains:

@@ -19,7 +19,7 @@ from clast.parts.generator import Packing
 from clast.scene.build import build_scene, generated
 from clast.scene.packing_report import overlaps
 
-SIZES = {"small": 2.0e-3, "large": 3.0e-3}
+CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def fraction(diameter: float, **more: Any) -> dict[str, Any]:
@@ -111,6 +111,14 @@ def test_the_bed_is_levelled_to_its_height() -> None:
     many = {"small": fraction(2e-3, grains=16), "large": fraction(3e-3, grains=14)}
     loose = float(packing(fill(many)).report["height_m"])
     assert_sound(packing(fill(many, height=0.94 * loose)), 4.5e-3, 0.94 * loose)
+
+
+@pytest.mark.parametrize("seed", [4, 11])
+def test_the_small_oedometer_fits_under_its_height_where_the_first_bed_poured_does_not(seed: int) -> None:
+    made = packing(load(CONFIGS / "oedometer_small.yaml", [f"particles.seed={seed}"]))
+    assert float(made.report["largest_overlap_m"]) <= 1e-4 * 2.0 * made.radius.min()
+    assert float(made.report["height_m"]) < 8.4e-3 * (1.0 + 1e-4)
+    assert made.report["times_poured"] == 2
 
 
 def test_a_box_is_filled_too() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,21 +17,24 @@ from clast_plugins.generators.filling.settle import Settled
 Floats = NDArray[np.float64]
 
 
+class Bed(NamedTuple):
+    """Settled grains, the centres (g, 3) in m of the spheres poured for them, and how often it took to pour them."""
+
+    grains: Grains
+    poured: Floats
+    settled: Settled
+    tries: int
+
+
 def account(
-    fractions: Iterable[str],
-    room: Room,
-    asked: float | None,
-    recipe: Recipe,
-    grains: Grains,
-    poured: Floats,
-    settled: Settled,
+    fractions: Iterable[str], room: Room, asked: float | None, recipe: Recipe, bed: Bed
 ) -> dict[str, float | int | str]:
     """Return what a fill of fractions with these names reached.
 
     Densities and porosities are those below the height in m that was ``asked``, or below the mean surface where none
-    was or the bed does not reach it. Porosity between grains counts each grain as a sphere of its diameter. ``poured``
-    (g, 3) are the centres of the spheres.
+    was or the bed does not reach it. Porosity between grains counts each grain as a sphere of its diameter.
     """
+    grains, settled = bed.grains, bed.settled
     names, mass, surface = list(fractions), float(recipe.mass.sum()), mean_surface(grains, room)
     reached = asked is not None and settled.height > asked - 0.5 * float(recipe.diameter.mean())
     volume = room.section * (asked if asked is not None and reached else surface)
@@ -53,7 +57,8 @@ def account(
         "porosity_between_primaries": 1.0 - float(grains.volume.sum()) / volume,
         "porosity_between_grains": 1.0 - float((pi / 6.0 * recipe.diameter**3).sum()) / volume,
         "coordination_of_grains": neighbours_touching(grains),
-        "height_of_poured_spheres_m": float((poured[:, 2] + grains.reach).max()),
+        "height_of_poured_spheres_m": float((bed.poured[:, 2] + grains.reach).max()),
+        "times_poured": bed.tries,
         "settling_steps": settled.steps,
         "largest_overlap_m": settled.overlap,
         "residual_stress_per_contact_modulus": residual_stress(grains, volume),
@@ -89,11 +94,11 @@ def residual_stress(grains: Grains, volume: float) -> float:
     return float((4.0 / 3.0 * np.sqrt(reduced) * overlap**1.5 * along).sum() / (3.0 * volume))
 
 
-def too_full(height: float | None, overlap: float, allowed: float) -> str:
-    """Return what to tell of grains that do not fit under a height in m without an overlap in m."""
+def too_full(height: float | None, overlap: float, allowed: float, tries: int) -> str:
+    """Return what to tell of grains that do not fit under a height in m without an overlap in m, however poured."""
     lid = f"under a height of {1e3 * height:.4g} mm " if height is not None else ""
     remedy = "raise 'height', take fewer grains," if height is not None else "take another 'seed', fewer grains,"
     return (
-        f"the grains do not fit {lid}without overlaps: {1e6 * overlap:.4g} um stay, allowed are {1e6 * allowed:.4g}; "
-        f"{remedy} or a larger room"
+        f"the grains do not fit {lid}without overlaps, poured {tries} times: {1e6 * overlap:.4g} um stay, allowed are "
+        f"{1e6 * allowed:.4g}; {remedy} or a larger room"
     )
