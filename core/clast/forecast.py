@@ -12,13 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.forecast_results import results_text, size_concerns
 from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
-from clast.scene.build import generated, join, site
+from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
+from clast.scene.foretold import bonded_gaps, foretold
+from clast.scene.rooms import open_faces
 from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
 from clast.scene.start import check_bonds, check_contacts, check_start, check_tracks
@@ -101,7 +102,7 @@ def forecast(config: SceneConfig) -> Forecast:
     ConfigError
         What would keep the scene from starting, as far as it shows without packing.
     """
-    told = [_predicted(config, chosen) for chosen in config.generators]
+    told = [foretold(config, chosen) for chosen in config.generators]
     packed = [each for each in told if each is not None]
     sample = _sample(config, told)
     (check_contacts if packed else check_start)(sample)
@@ -129,6 +130,7 @@ def forecast(config: SceneConfig) -> Forecast:
         seconds=seconds,
         notes=step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
         concerns=(
+            *(text for each in zip(config.generators, told, strict=True) for text in open_faces(config, *each)),
             *time_concerns(config, steps, seconds),
             *_memory_concerns(config, memory),
             *size_concerns(config, particles, count),
@@ -164,32 +166,8 @@ def _memory_concerns(config: SceneConfig, memory: float) -> list[str]:
     ]
 
 
-def _bonded_gaps(config: SceneConfig) -> Gaps | None:
-    between = config.bonds.between if config.bonds is not None else None
-    if between is None:
-        return None
-    least = -math.inf if between.min_gap is None else between.min_gap
-    if between.relative_gap is not None:
-        return Gaps(least, between.relative_gap, relative=True)
-    assert between.max_gap is not None
-    return Gaps(least, between.max_gap)
-
-
-def _predicted(config: SceneConfig, chosen: Chosen) -> Prediction | None:
-    """Return what a generator says it will make; None for one that makes it at once."""
-    predict = chosen.part.predict
-    if predict is None:
-        return None
-    between = config.bonds.between if config.bonds is not None else None
-    with config.placing(config.path_of(chosen)):
-        told: Prediction = predict(chosen.params, site(config), _bonded_gaps(config))
-        if between is not None and between.materials is not None and told.material not in between.materials:
-            told = predict(chosen.params, site(config), None)
-    return told
-
-
 def _sample(config: SceneConfig, told: list[Prediction | None]) -> Scene:
-    gaps = _bonded_gaps(config)
+    gaps = bonded_gaps(config)
     packings = [
         generated(config, chosen) if prediction is None else _two_neighbours(prediction, gaps)
         for chosen, prediction in zip(config.generators, told, strict=True)

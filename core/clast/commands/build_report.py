@@ -17,7 +17,7 @@ from clast.parts.generator import BondList
 from clast.results.fragments import fragments
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
-from clast.scene.held import not_held
+from clast.scene.concerns import concerns
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
 from clast.scene.plan import blueprint
 from clast.scene.scatter import scatter_entries
@@ -53,7 +53,7 @@ def report(config: SceneConfig) -> str:
     sections = [
         ("Scene", scene_rows(scene)),
         *((f"Generator {name}", generator_rows(told)) for name, told in scene.report.items()),
-        *(("Look here", [("warning", text)]) for text in not_held(scene)),
+        *(("Look here", [("warning", text)]) for text in concerns(scene)),
         ("Time step", step_rows(scene, found, step)),
         ("Compiled in", [(name, text) for name, on, text in features(plan) if on]),
         (

@@ -13,7 +13,7 @@ from clast.errors import RunError
 from clast.forecast import duration, run_seconds, time_concerns
 from clast.forecast_results import size_concerns
 from clast.results.in_words import summary_rows
-from clast.scene.held import not_held
+from clast.scene.concerns import concerns
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
 
@@ -89,12 +89,12 @@ class Lines(Listener):
         left = simulation.last_step - simulation.step
         size = f"{counted(len(scene.radius), 'particle')}, {counted(len(scene.ends), 'bond')}"
         self.say(f"{size}, {left:,} steps of {simulation.dt:.3g} s")
-        for line in (simulation.crew.told, simulation.keeper.warning, *not_held(scene)):
+        for line in (simulation.crew.told, simulation.keeper.warning, *concerns(scene)):
             if line:
                 self.say(line)
         seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)
-        concerns = time_concerns(simulation.config, left, seconds)
-        for line in (*concerns, *size_concerns(simulation.config, len(scene.radius), len(scene.ends))):
+        slow = time_concerns(simulation.config, left, seconds)
+        for line in (*slow, *size_concerns(simulation.config, len(scene.radius), len(scene.ends))):
             self.say(line)
         self.last = time.monotonic()
 

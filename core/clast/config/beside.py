@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -27,6 +27,11 @@ class WallChoice:
     def flat(self) -> bool:
         """Whether what presses on it is a component of the force on it."""
         return bool(self.shape.part.flat(self.shape.params))
+
+    def distance(self, x: Sequence[float]) -> float:
+        """Return the distance in m from a point to the surface, as it stands at the start; negative behind it."""
+        nearest = self.shape.part.nearest(self.shape.part.shape(self.shape.params), tuple(map(float, x)))
+        return float(nearest.distance)
 
     def plain(self) -> dict[str, Any]:
         """Give the wall as the scene file would have it."""

@@ -138,8 +138,12 @@ class SceneConfig(Params):
         text : str
             What is wrong, and what to do.
         """
-        message = f"{place}: {text}" if isinstance(place, str) else self._document.report([Problem(place, text)])
+        message = f"{place}: {text}" if isinstance(place, str) else self.remark(place, text)
         return ConfigError(message, at=None)
+
+    def remark(self, path: KeyPath, text: str) -> str:
+        """Return a text with file, line and key path in front."""
+        return self._document.report([Problem(path, text)])
 
     @contextmanager
     def placing(self, path: KeyPath) -> Iterator[None]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from clast.errors import KeyPath
 from clast.parts.params import Params
+from clast.parts.room import FilledRoom
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -67,6 +68,8 @@ class Packing:
         What was reached, for the user: name with unit -> number or text.
     origin : (k) -> key path or str, optional
         Where the user wrote particle k, for messages: a key path inside the generator's own keys, or file and line.
+    concerns : tuple of str
+        What the user should know before the run, one sentence each, such as what was asked for and not reached.
     """
 
     position: Floats
@@ -82,6 +85,7 @@ class Packing:
     relieved: bool = False
     report: Mapping[str, float | int | str] = field(default_factory=dict)
     origin: Callable[[int], KeyPath | str] = lambda k: ()
+    concerns: tuple[str, ...] = ()
 
 
 class Site(NamedTuple):
@@ -141,6 +145,8 @@ class Prediction:
         packing can tell.
     particles_band : float
         How sure ``particles`` is, as ``Estimate.band``.
+    room : FilledRoom or None
+        What it fills, if it takes walls for granted: they are held against it before it packs.
     """
 
     particles: int
@@ -148,6 +154,7 @@ class Prediction:
     material: str
     bonds: Estimate | None = None
     particles_band: float = 0.0
+    room: FilledRoom | None = None
 
 
 @dataclass(frozen=True)
@@ -163,8 +170,9 @@ class Generator:
     generate : (params, site) -> Packing
         ``site`` is the :class:`Site` of the scene.
     predict : (params, site, gaps) -> Prediction, optional
-        What ``clast check`` tells, in milliseconds; ``gaps`` are those the scene bonds, None where it bonds none.
-        Without it ``clast check`` calls ``generate``: leave it out where that takes no time.
+        What ``clast check`` tells, in milliseconds; ``gaps`` are those the scene bonds, None where it bonds none. It
+        is asked before ``generate`` too, so that what cannot be is refused at once. Without it ``clast check`` calls
+        ``generate``: leave it out where that takes no time.
     """
 
     summary: str

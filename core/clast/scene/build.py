@@ -11,9 +11,10 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.mass_scaling import with_heavier_particles
 from clast.errors import ConfigError, KeyPath
-from clast.parts.generator import BondList, Packing, Site
+from clast.parts.generator import BondList, Packing
 from clast.plugins.nearest import suggestion
 from clast.scene.bonding import bond_neighbours, doubled
+from clast.scene.foretold import foretold, site
 from clast.scene.scatter import draw_factors, scatter_entries
 from clast.scene.scene import Origin, Scene
 
@@ -37,14 +38,15 @@ def build_scene(config: SceneConfig) -> Scene:
 
 
 def generated(config: SceneConfig, chosen: Chosen) -> Packing:
-    """Run one generator of a config; its errors are told with their place in the scene.
+    """Run one generator of a config, if it can be; its errors are told with their place in the scene.
 
     Raises
     ------
     PackingError, ConfigError
-        From the generator; and where it bonds a particle that is not there, one to itself, or two of them twice, or
-        brings bonds to a scene without a bond model.
+        From the generator and from :func:`foretold`; and where it bonds a particle that is not there, one to itself,
+        or two of them twice, or brings bonds to a scene without a bond model.
     """
+    foretold(config, chosen)
     with config.placing(config.path_of(chosen)):
         packing: Packing = chosen.part.generate(chosen.params, site(config))
     if packing.bonds is not None and len(packing.bonds.ends):
@@ -53,11 +55,6 @@ def generated(config: SceneConfig, chosen: Chosen) -> Packing:
             raise config.problem((*config.path_of(chosen), "bonds"), text)
         _refuse_senseless_bonds(config, chosen, packing.bonds, len(packing.radius))
     return packing
-
-
-def site(config: SceneConfig) -> Site:
-    """Return what the generators of a scene may know of it."""
-    return Site(config.folder, {name: material.density for name, material in config.materials.items()})
 
 
 def _refuse_senseless_bonds(config: SceneConfig, chosen: Chosen, bonds: BondList, particles: int) -> None:
@@ -122,6 +119,9 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
         factors=draw_factors(scatter_entries(config), len(bonds.ends)),
         origins=origins,
         report={f"{k + 1}. {chosen.name}": packing.report for k, (chosen, packing) in enumerate(made)},
+        concerns=tuple(
+            config.remark(config.path_of(chosen), text) for chosen, packing in made for text in packing.concerns
+        ),
     )
     _refuse_extreme_masses(scene)
     return scene

@@ -58,6 +58,8 @@ class Scene:
         Where the particles of each generator come from, in order.
     report : mapping
         What each generator reached.
+    concerns : tuple of str
+        What generators want the user to know before the run, each with the place of its generator.
     """
 
     config: SceneConfig
@@ -78,6 +80,7 @@ class Scene:
     factors: tuple[Floats, ...] = ()
     origins: tuple[Origin, ...] = ()
     report: Mapping[str, Mapping[str, float | int | str]] = field(default_factory=dict)
+    concerns: tuple[str, ...] = ()
 
     @property
     def bond_vectors(self) -> Floats:

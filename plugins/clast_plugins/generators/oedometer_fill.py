@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,7 +18,7 @@ from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.filling import kept
-from clast_plugins.generators.filling.account import Bed, account, too_full
+from clast_plugins.generators.filling.account import Bed, account, concerns, too_full
 from clast_plugins.generators.filling.dice import random_turns
 from clast_plugins.generators.filling.foresee import foresee
 from clast_plugins.generators.filling.fraction import Fraction
@@ -92,9 +93,13 @@ def generate(params: OedometerFill, site: Site) -> Packing:
     PackingError
         A template that cannot be packed, grains that do not come to rest, or more than fit under the height.
     """
-    if params.file is None:
-        return _filled(params, site)
-    path, keys = site.folder / params.file, _keys(params, site)
+    packing = _filled(params, site) if params.file is None else _kept(params, site, site.folder / params.file)
+    return replace(packing, concerns=concerns(packing.report))
+
+
+def _kept(params: OedometerFill, site: Site, path: Path) -> Packing:
+    """Return the fill that a file keeps; where there is none, make and keep it."""
+    keys = _keys(params, site)
     with about("file"):
         packing = kept.read(path, keys)
     if packing is None:
@@ -107,14 +112,14 @@ def generate(params: OedometerFill, site: Site) -> Packing:
 
 
 def predict(params: OedometerFill, site: Site, gaps: Gaps | None) -> Prediction:
-    """Return how many primaries and bonds there will be, and refuse what cannot be.
+    """Return how many primaries and bonds there will be and what they fill, and refuse what cannot be.
 
     Raises
     ------
     ConfigError
         Counts that do not add up, a mass that the grains do not have, or more than the room can hold.
     """
-    return foresee(params.fractions, params.room, params.height, params.grains, params.mass, site, gaps)
+    return foresee(params.fractions, params.room, params.base, params.height, params.grains, params.mass, site, gaps)
 
 
 def _keys(params: OedometerFill, site: Site) -> dict[str, Any]:

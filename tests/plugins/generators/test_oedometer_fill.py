@@ -17,6 +17,7 @@ from clast.errors import ClastError, ConfigError, PackingError
 from clast.forecast import forecast
 from clast.parts.generator import Packing
 from clast.scene.build import build_scene, generated
+from clast.scene.concerns import concerns
 from clast.scene.packing_report import overlaps
 
 CONFIGS = Path(__file__).parents[3] / "configs"
@@ -142,8 +143,8 @@ def test_what_is_predicted_is_what_comes() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"diameter": "2.5 mm"}, "the room must be at least 5 % wider than that"),
-        ({"height": "2 mm"}, "do not fit under a height of 2 mm"),
+        ({"diameter": "3.1 mm"}, "the room must be at least 5 % wider than that"),
+        ({"height": "2.1 mm"}, "do not fit under a height of 2.1 mm without overlaps, poured 4 times: "),
         ({"grains": 12}, "particles.grains: the fractions have 11 grains together, not 12"),
         ({"mass": "1 kg"}, "particles.mass: 11 grains of these sizes weigh"),
         ({"width": "3 mm"}, "either a 'diameter' is needed, for a tube, or 'width' and 'depth'"),
@@ -229,9 +230,13 @@ def test_a_narrow_tube_takes_its_grains_one_above_the_other() -> None:
 
 
 def test_a_bed_below_the_height_asked_for_is_pointed_out() -> None:
-    told = packing(fill(height="40 mm")).report
+    built = build_scene(fill(height="40 mm"))
+    (told,) = built.report.values()
     assert str(told["height_not_reached"]).startswith("the bed ends 3")
     assert float(told["porosity_between_grains"]) < 0.7
+    low, *_ = concerns(built)
+    assert low.startswith("scene: particles: the bed ends 3")
+    assert "mm below the height asked for, so that a piston at this height meets nothing at first; lower" in low
 
 
 def test_a_finished_fill_is_used_again_and_never_for_another(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import pi
 from typing import NamedTuple
 
@@ -63,6 +63,13 @@ def account(
         "largest_overlap_m": settled.overlap,
         "residual_stress_per_contact_modulus": residual_stress(grains, volume),
     }
+
+
+def concerns(told: Mapping[str, float | int | str]) -> tuple[str, ...]:
+    """Return what of an account a user should know before the run."""
+    low = told.get("height_not_reached")
+    text = f"{low}, so that a piston at this height meets nothing at first; lower 'height' and the walls, or add grains"
+    return () if low is None else (text,)
 
 
 def mean_surface(grains: Grains, room: Room) -> float:

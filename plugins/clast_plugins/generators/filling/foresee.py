@@ -12,7 +12,8 @@ from clast.errors import ConfigError, about
 from clast.parts.generator import Estimate, Gaps, Prediction, Site
 from clast_plugins.generators.filling.counts import counts
 from clast_plugins.generators.filling.fraction import Fraction
-from clast_plugins.generators.filling.recipe import mass_factor, shares_of
+from clast_plugins.generators.filling.outline import outline
+from clast_plugins.generators.filling.recipe import MOST_OFF, mass_factor, shares_of
 from clast_plugins.generators.filling.room import Room
 from clast_plugins.generators.filling.sizes import sizes
 
@@ -25,6 +26,7 @@ DENSEST = 0.75
 def foresee(
     fractions: Mapping[str, Fraction],
     room: Room,
+    base: tuple[float, float, float],
     height: float | None,
     grains: int | None,
     mass: float | None,
@@ -37,6 +39,8 @@ def foresee(
     ----------
     fractions : mapping
     room : Room
+    base : (x, y, z)
+        Middle of its bottom in m.
     height : float or None
         To which the bed is levelled, in m.
     grains, mass : int or None, float or None
@@ -60,7 +64,8 @@ def foresee(
     scale = [d / each.diameter for d, each in zip(drawn, fractions.values(), strict=True)]
     there = sum(float((s**3).sum()) * m for s, m in zip(scale, weight.values(), strict=True))
     factor = 1.0 if mass is None else mass_factor(sum(count), there, mass)
-    _refuse_too_much(factor * np.concatenate(drawn), room, height)
+    diameter = factor * np.concatenate(drawn)
+    _refuse_too_much(diameter, room, height)
     smallest = min(
         (factor * float(s.min()) * each.radius, each.material)
         for s, each in zip(scale, told.values(), strict=True)
@@ -68,7 +73,8 @@ def foresee(
     )
     particles = sum(n * each.particles for n, each in zip(count, told.values(), strict=True))
     band = max(each.particles_band for each in told.values())
-    return Prediction(particles, *smallest, _bonds(count, list(told.values())), band)
+    filled = outline(room, base, height or _lowest(diameter, room))
+    return Prediction(particles, *smallest, _bonds(count, list(told.values())), band, filled)
 
 
 def _template(name: str, fraction: Fraction, site: Site, gaps: Gaps | None) -> Prediction:
@@ -82,9 +88,17 @@ def _template(name: str, fraction: Fraction, site: Site, gaps: Gaps | None) -> P
         return Prediction(len(packing.radius), float(packing.radius[k]), packing.material[k])
 
 
-def _refuse_too_much(
-    diameter: np.ndarray[tuple[int, ...], np.dtype[np.float64]], room: Room, height: float | None
-) -> None:
+def _lowest(diameter: Floats, room: Room) -> float:
+    """Return the height in m that a bed of these grains surely has."""
+    return max(_spheres(diameter) / (room.section * DENSEST), (1.0 - MOST_OFF) * float(diameter.max()))
+
+
+def _spheres(diameter: Floats) -> float:
+    """Return the volume in m³ of all grains as spheres of their sizes."""
+    return float((pi / 6.0 * diameter**3).sum())
+
+
+def _refuse_too_much(diameter: Floats, room: Room, height: float | None) -> None:
     """Refuse grains that are wider than the room, or more than can lie below a height."""
     widest, across = float(diameter.max()), 2.0 * min(room.half_widths)
     if widest > across:
@@ -92,7 +106,7 @@ def _refuse_too_much(
             f"a grain of {1e3 * widest:.4g} mm does not fit into a room {1e3 * across:.4g} mm wide", ("fractions",)
         )
     if height is not None:
-        share = float((pi / 6.0 * diameter**3).sum()) / (room.section * height)
+        share = _spheres(diameter) / (room.section * height)
         if share > DENSEST:
             raise ConfigError(
                 f"the grains would fill {share:.0%} of the room below this height, and {DENSEST:.0%} is more than they "
