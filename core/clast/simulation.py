@@ -88,6 +88,7 @@ class Simulation:
         self, config: SceneConfig, threads: int | None = None, compiling: Callable[[], None] | None = None
     ) -> None:
         self.config = config
+        self.gauge = Gauge(config)  # refuses what a packing cannot mend, before it takes its time
         self.scene: Scene = build_scene(config)
         check_start(self.scene)
         self.plan = blueprint(self.scene)
@@ -97,7 +98,6 @@ class Simulation:
         self.keeper.above = self.dt / self.limits.stable
         self.skin = choose_skin(self.scene)
         self.reach = largest_reach(self.scene)
-        self.gauge = Gauge(config)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         self.kernel: Kernel = assemble(self.plan, try_laws(self.scene, self.plan))
         if compiling is not None and self.kernel.fresh:

@@ -14,8 +14,10 @@ from clast import Simulation, load, open_run, run_scene
 from clast.config.scene import from_mapping
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import ConfigError
+from clast.forecast import forecast
 from clast.results.in_words import summary_rows
 from clast.results.side import side_results, side_rows
+from clast.scene.compression import Gauge
 
 GLASS = {"density": 2500, "young_modulus": "1 GPa", "poisson_ratio": 0.25}
 R = 1.4e-3
@@ -173,6 +175,35 @@ def test_nothing_is_caught_or_slips_past_at_the_rim_of_a_disc_as_wide_as_the_tub
     assert world.walls.force[2, 2] > 0.1
     assert (place[:, 2] + 0.95 * radius < piston).all()
     assert (np.hypot(place[:, 0], place[:, 1]) + 0.95 * radius < R).all()
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"compression.height": 7e-3}, r"compression.height: 7 mm, but walls.piston stands 5.72 mm from walls.bottom"),
+        ({"compression.height": 5.65e-3}, r"compression.height: 5.65 mm, but walls.piston stands 5.72 mm"),
+        ({"walls.piston.point": [1e-3, 0, 8e-3]}, r"compression.height: 5.72 mm, but walls.piston stands 8 mm"),
+        (
+            {"compression.diameter": 20e-3},
+            r"compression.diameter: 20 mm, but walls.tube has the section of a circle of 2.8 mm",
+        ),
+        (
+            {"walls.tube.radius": 1.43e-3},
+            r"compression.diameter: 2.8 mm, but walls.tube has the section of a circle of 2.86 mm",
+        ),
+    ],
+)
+def test_strain_and_stress_that_are_not_those_of_the_walls_are_refused(changes: dict[str, Any], said: str) -> None:
+    config = from_mapping(bed()).changed(changes)
+    with pytest.raises(ConfigError, match=said):
+        Gauge(config)
+    with pytest.raises(ConfigError, match=said):
+        forecast(config)
+
+
+def test_a_plate_aside_of_the_middle_is_as_far_away_and_one_percent_is_let_pass() -> None:
+    changes = {"walls.piston.point": [1e-3, 0, 5.72e-3], "compression.height": 5.75e-3, "compression.diameter": 2.82e-3}
+    assert Gauge(from_mapping(bed()).changed(changes)).height == 5.75e-3
 
 
 @pytest.mark.parametrize(

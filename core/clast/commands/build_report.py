@@ -44,6 +44,7 @@ def report(config: SceneConfig) -> str:
     ClastError
         Whatever would stop the run from starting.
     """
+    gauge = Gauge(config)
     scene = build_scene(config)
     check_start(scene)
     plan = blueprint(scene)
@@ -54,7 +55,7 @@ def report(config: SceneConfig) -> str:
         ("Scene", scene_rows(scene)),
         *((f"Generator {name}", generator_rows(told)) for name, told in scene.report.items()),
         *(("Look here", [("warning", text)]) for text in concerns(scene)),
-        ("Time step", step_rows(scene, found, step)),
+        ("Time step", step_rows(scene, found, step, gauge)),
         ("Compiled in", [(name, text) for name, on, text in features(plan) if on]),
         (
             "Left out: this scene does not need it",
@@ -135,7 +136,7 @@ def generator_rows(told: object) -> Rows:
     return [(str(name), f"{value:.5g}" if isinstance(value, float) else str(value)) for name, value in told.items()]
 
 
-def step_rows(scene: Scene, found: Limits, step: float) -> Rows:
+def step_rows(scene: Scene, found: Limits, step: float, gauge: Gauge) -> Rows:
     """Return every limit, the step that was chosen, and how far it is from instability."""
     rules = ruling(scene.config, found)
     rows = [
@@ -148,7 +149,7 @@ def step_rows(scene: Scene, found: Limits, step: float) -> Rows:
     rows.append(("step taken", f"{step:.4g} s ({origin})"))
     if isfinite(found.stable):
         rows.append(("share of the stable step", f"{step / found.stable:.2f}"))
-    return [*rows, ("steps to the end", f"{Gauge(scene.config).last_step(step):,}")]
+    return [*rows, ("steps to the end", f"{gauge.last_step(step):,}")]
 
 
 def features(plan: Blueprint) -> list[tuple[str, bool, str]]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError, ValidationInfo
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
@@ -28,9 +30,9 @@ class WallChoice:
         """Whether what presses on it is a component of the force on it."""
         return bool(self.shape.part.flat(self.shape.params))
 
-    def distance(self, x: Sequence[float]) -> float:
+    def distance(self, x: NDArray[np.float64]) -> float:
         """Return the distance in m from a point to the surface, as it stands at the start; negative behind it."""
-        nearest = self.shape.part.nearest(self.shape.part.shape(self.shape.params), tuple(map(float, x)))
+        nearest = self.shape.part.nearest(self.shape.part.shape(self.shape.params), tuple(x.tolist()))
         return float(nearest.distance)
 
     def plain(self) -> dict[str, Any]:

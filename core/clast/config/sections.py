@@ -115,8 +115,13 @@ class Compression(Params):
 
     upper: Annotated[str, Field(description="Name of the upper wall")]
     lower: Annotated[str, Field(description="Name of the lower wall")]
-    height: Annotated[Length, Field(gt=0, description="Height that strain refers to")]
-    diameter: Annotated[Length, Field(gt=0, description="Diameter of the section that stress refers to")]
+    height: Annotated[
+        Length, Field(gt=0, description="Height that strain refers to; with a side, that between the plates")
+    ]
+    diameter: Annotated[
+        Length,
+        Field(gt=0, description="Diameter of the section that stress refers to; with a side, that of its section"),
+    ]
     side: Annotated[
         str | None, Field(description="Name of the wall around what is pressed, such as the cylinder of an oedometer")
     ] = None

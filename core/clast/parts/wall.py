@@ -82,6 +82,8 @@ class Wall:
         forces from opposite sides cancel: there what presses is summed up too.
     girth : (params) -> float, optional
         Length in m of the closed line that a tube's inner face is in its cross-section; None for what is no tube.
+    section : (params) -> float, optional
+        Area in m² inside that line; with it a compression in the tube is held against it.
     """
 
     summary: str
@@ -93,6 +95,7 @@ class Wall:
     mesh: Callable[[Any, float], tuple[NDArray[np.float64], NDArray[np.int64]]]
     flat: Callable[[Any], bool] = never
     girth: Callable[[Any], float] | None = None
+    section: Callable[[Any], float] | None = None
 
 
 @dataclass(frozen=True)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import ceil, pi
+from math import ceil, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.beside import WallChoice
+from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.state import Walls
 from clast.scene.approach import time_of
 
 Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
+MOST_OFF = 0.01
+"""Share by which height and diameter of a compression in a tube may differ from those of its walls."""
 
 
 class SideReading(NamedTuple):
@@ -84,7 +87,29 @@ class Gauge:
                 ("compression", "side"),
                 f"walls.{name} is a {shape.name}, which surrounds nothing; name a wall such as a cylinder",
             )
+        self._refuse_another_geometry(name, shape)
         return side, float(shape.part.girth(shape.params))
+
+    def _refuse_another_geometry(self, name: str, side: Chosen) -> None:
+        """Refuse numbers for strain and stress that are not those of the plates and the wall around."""
+        upper, lower = self.names[self.upper], self.names[self.lower]
+        apart = abs(self._wall(self.lower).distance(self._centre(self.upper)))
+        if abs(self.height - apart) > MOST_OFF * self.height:
+            text = (
+                f"{1e3 * self.height:.5g} mm, but walls.{upper} stands {1e3 * apart:.5g} mm from walls.{lower}; strain "
+                "needs this distance: give it here, or move a wall"
+            )
+            raise self.config.problem(("compression", "height"), text)
+        if side.part.section is None:
+            return
+        wide = sqrt(4.0 / pi * side.part.section(side.params))
+        diameter = sqrt(4.0 / pi * self.area)
+        if abs(diameter - wide) > MOST_OFF * diameter:
+            text = (
+                f"{1e3 * diameter:.5g} mm, but walls.{name} has the section of a circle of {1e3 * wide:.5g} mm; stress "
+                "needs this one: give it here, or change the wall"
+            )
+            raise self.config.problem(("compression", "diameter"), text)
 
     def _centre(self, k: int) -> Floats:
         wall = self._wall(k).shape

@@ -63,6 +63,11 @@ def girth(params: Cylinder) -> float:
     return 2.0 * pi * params.radius
 
 
+def section(params: Cylinder) -> float:
+    """Return the area of the cross-section in m²."""
+    return pi * params.radius**2
+
+
 def mesh(params: Cylinder, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return a tube of 96 triangles, ``size`` long on either side of the point."""
     a = np.asarray(shape(params).axis)
@@ -89,5 +94,6 @@ def clast_register(registry: Registry) -> None:
             centre=centre,
             mesh=mesh,
             girth=girth,
+            section=section,
         ),
     )
