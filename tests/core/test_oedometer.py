@@ -9,14 +9,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from clast import Simulation, load, open_run, run_scene
+from clast.cli import main
 from clast.config.scene import from_mapping
 from clast.config.yaml_loader import dump_yaml
 from clast.errors import ConfigError
 from clast.forecast import forecast
 from clast.results.in_words import summary_rows
 from clast.results.side import side_results, side_rows
+from clast.results.warnings import compression_warnings
 from clast.scene.compression import Gauge
 
 GLASS = {"density": 2500, "young_modulus": "1 GPa", "poisson_ratio": 0.25}
@@ -143,6 +146,9 @@ def test_the_summary_tells_peak_end_and_loading_in_numbers_and_words(pressed: Pa
     assert told["at_peak"]["stress_upper_Pa"] == summary["peak_stress_Pa"]
     assert 0.05 < told["over_the_loading"]["lateral_pressure_coefficient"] < 1.0
     assert f"{told['over_the_loading']['lateral_pressure_coefficient']:.3f} over" in rows["side over mean axial stress"]
+    assert 0.0 < told["over_the_loading"]["unbalanced_share"] < 0.05
+    assert rows["upper - lower - side wall"].startswith(f"mean {told['over_the_loading']['unbalanced_share']:.1%} of")
+    assert summary["warnings"] == []
     assert f"{told['at_the_end']['wall_friction_share']:.1%} at the end" in rows["carried by wall friction"]
     assert f"{told['at_peak']['stress_side_Pa'] / 1e6:.3f} MPa at the peak" in rows["stress on the side wall"]
 
@@ -158,10 +164,45 @@ def test_the_loading_counts_from_a_fifth_of_the_peak_to_the_peak_by_its_load() -
     loading = side_results(curves)["side_wall"]["over_the_loading"]
     assert loading["lateral_pressure_coefficient"] == pytest.approx(6.0 / 12.0)
     assert loading["wall_friction_share"] == pytest.approx((2.0 + 2.0) / 14.0)
+    assert loading["unbalanced_share"] == pytest.approx((4.0 - 2.0 - 2.0 + 10.0 - 8.0 - 2.0) / 14.0)
+    curves["stress_lower_Pa"][1:3] = 3.0, 6.0
+    loading = side_results(curves)["side_wall"]["over_the_loading"]
+    assert loading["unbalanced_share"] == pytest.approx((1.0 + 2.0) / 14.0)
     nothing = side_results({name: np.zeros(3) for name in curves})["side_wall"]
     assert nothing["over_the_loading"]["lateral_pressure_coefficient"] is None
     assert side_rows(nothing) == [("side wall", "nothing pressed on the plates")]
     assert side_results({"stress_Pa": np.ones(2)}) == {}
+
+
+def test_forces_that_do_not_balance_are_pointed_out_from_five_percent_on() -> None:
+    pressed = from_mapping(bed()).compression
+    assert pressed is not None
+    told = {"peak_stress_Pa": 1.0, "side_wall": {"over_the_loading": {"unbalanced_share": 0.051}}}
+    (warning,) = compression_warnings(pressed, told)
+    assert warning.startswith("walls.bottom and walls.tube carry 5.1% more or less than walls.piston presses with")
+    assert "Lower the velocity of the walls or time.mass_scaling" in warning
+    told["side_wall"] = {"over_the_loading": {"unbalanced_share": 0.049}}
+    assert compression_warnings(pressed, told) == []
+
+
+def test_a_piston_that_meets_nothing_is_told_in_place_of_a_stress_of_zero(tmp_path: Path) -> None:
+    scene = bed()
+    scene["walls"]["piston"]["point"], scene["compression"]["height"] = [0, 0, 7e-3], 7e-3
+    scene["time"]["end"] = {"strain": 0.025}
+    scene["output"] = {"writers": [], "samples": 20, "frames": 0}
+    summary = run_scene(from_mapping(scene), tmp_path / "run").summary
+    rows = dict(summary_rows(summary))
+    assert rows["peak stress"] == "none: the upper wall met nothing"
+    assert not [name for name in rows if "modulus" in name]
+    (warning,) = summary["warnings"]
+    assert rows["WARNING"] == warning
+    assert warning.startswith("walls.piston met nothing in the whole run, so there is no stress; let it begin nearer")
+    result = CliRunner().invoke(main, ["report", str(tmp_path / "run")])
+    assert result.exit_code == 0, result.output
+    page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    assert page.index("Before you read on") < page.index("walls.piston met nothing") < page.index("Summary</h2>")
+    assert "need not be the peak" not in page
+    assert "0.00 MPa" not in page
 
 
 def test_nothing_is_caught_or_slips_past_at_the_rim_of_a_disc_as_wide_as_the_tube() -> None:

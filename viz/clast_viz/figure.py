@@ -126,6 +126,8 @@ def save(figure: Any, path: Path, dpi: int) -> None:
 
 def _mark_peak(axes: Any, run: Run) -> None:
     top = peak(run)
+    if top.stress <= 0.0:
+        return  # nothing pressed on the upper wall
     percent, stress = 100.0 * top.strain, top.stress / 1e6
     # the value stands in the legend, where no curve or error bar can cover it
     axes.plot(

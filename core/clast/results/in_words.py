@@ -14,13 +14,7 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     counts = summary["counts"]
     rows = [("particles, bonds", f"{counts['particles']}, {counts['bonds']}")]
     if "peak_stress_Pa" in summary:
-        where = "" if summary["peak_inside_run"] else " (still rising or not yet fallen by a fifth)"
-        rows.append(
-            (
-                "peak stress",
-                f"{summary['peak_stress_Pa'] / 1e6:.3f} MPa at {summary['strain_at_peak']:.2%}{where}",
-            )
-        )
+        rows.append(("peak stress", peak_text(summary)))
         for key, text in (
             ("secant_modulus_20_80_Pa", "secant modulus, 20 to 80 %"),
             ("hertz_modulus_at_2_percent_Pa", "Hertz modulus at 2 %"),
@@ -45,6 +39,7 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
         rows.append((f"ended by {summary['ended_by']['by']}", summary["ended_by"]["reason"]))
     if summary["time_step_warning"]:
         rows.append(("WARNING", summary["time_step_warning"]))
+    rows += [("WARNING", text) for text in summary.get("warnings", ())]
     if summary.get("particles_made_heavier"):
         share = summary["added_mass_share_of_kinetic_energy"]
         text = f"{summary['particles_made_heavier']} particles, {summary['added_mass_kg']:.3g} kg more in all"
@@ -52,6 +47,18 @@ def summary_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     rows.append(("run time", f"{duration(summary['wall_time_s'])}, {rate:,.0f} steps/s" if rate else "none"))
     rows.append(("memory", f"{summary['memory_MB']:.0f} MB"))
     return rows
+
+
+def peak_text(summary: dict[str, Any]) -> str:
+    """Return how large the peak of a compression was, and where.
+
+    >>> peak_text({"peak_stress_Pa": 2e6, "strain_at_peak": 0.05, "peak_inside_run": True})
+    '2.000 MPa at 5.00%'
+    """
+    if summary["peak_stress_Pa"] <= 0.0:
+        return "none: the upper wall met nothing"
+    where = "" if summary["peak_inside_run"] else " (still rising or not yet fallen by a fifth)"
+    return f"{summary['peak_stress_Pa'] / 1e6:.3f} MPa at {summary['strain_at_peak']:.2%}{where}"
 
 
 def steps_text(summary: dict[str, Any]) -> str:

@@ -18,7 +18,8 @@ def side_results(curves: Curves) -> dict[str, Any]:
 
     Each at the peak of the stress on the upper wall and at the end, and the two ratios over the loading: the sums of
     what stands above and below their fraction bars over all samples from a fifth of the peak to the peak, so that
-    samples count as they are loaded. None where there was no load.
+    samples count as they are loaded. Likewise what lower wall and side carry more or less than the upper wall presses
+    with, as a share of that: at rest and without weight 0. None where there was no load.
     """
     if "stress_side_Pa" not in curves:
         return {}
@@ -46,14 +47,15 @@ def _at(curves: Curves, k: int) -> dict[str, float]:
 def _over_the_loading(curves: Curves, peak: int) -> dict[str, float | None]:
     upper = curves["stress_Pa"][: peak + 1]
     if upper[peak] <= 0.0:
-        return {"lateral_pressure_coefficient": None, "wall_friction_share": None}
+        return {"lateral_pressure_coefficient": None, "wall_friction_share": None, "unbalanced_share": None}
     rows = slice(int(np.argmax(upper >= LOADED * upper[peak])), peak + 1)
     upper = upper[rows]
-    axial = 0.5 * (upper + curves["stress_lower_Pa"][rows])
+    lower = curves["stress_lower_Pa"][rows]
     carried = curves["wall_friction_share"][rows] * upper
     return {
-        "lateral_pressure_coefficient": float(curves["stress_side_Pa"][rows].sum() / axial.sum()),
+        "lateral_pressure_coefficient": float(curves["stress_side_Pa"][rows].sum() / (0.5 * (upper + lower)).sum()),
         "wall_friction_share": float(carried.sum() / upper.sum()),
+        "unbalanced_share": float(np.abs(upper - lower - carried).sum() / upper.sum()),
     }
 
 
@@ -75,4 +77,7 @@ def side_rows(told: dict[str, Any]) -> list[tuple[str, str]]:
     ):
         text = f"{loading[key]:{form}} over the loading, {peak[key]:{form}} at the peak, {end[key]:{form}} at the end"
         rows.append((name, text))
+    if loading.get("unbalanced_share") is not None:
+        text = f"mean {loading['unbalanced_share']:.1%} of the force on the upper wall over the loading"
+        rows.append(("upper - lower - side wall", text))
     return rows

@@ -22,6 +22,7 @@ from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
 from clast.results.run import Run
 from clast.results.side import side_results
+from clast.results.warnings import warnings
 from clast.results.whole_file import whole_file
 from clast.simulation import Simulation
 
@@ -53,6 +54,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
     broken = np.zeros(len(scene.ends), bool)
     broken[simulation.world.cracks.bond[crack_rows(simulation.world.cracks)]] = True
     held = np.where(present, label, -1)
+    pressed = {**compression_results(simulation, curves), **side_results(curves)}
     return {
         "name": simulation.config.name,
         "versions": versions(),
@@ -71,6 +73,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "time_step_limits_s": limits_table(simulation),
         "time_step_ruled_by": ruling(simulation.config, simulation.limits),
         "time_step_warning": simulation.keeper.warning,
+        "warnings": warnings(scene, pressed),
         "steps": simulation.step,
         "simulated_time_s": simulation.time,
         "ended_by": simulation.ended._asdict() if simulation.ended else None,
@@ -85,8 +88,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
         "largest_fragment_particles": int(sizes.max(initial=0)),
         **grain_results(scene.grain, scene.true_mass, held, scene.ends, broken),
         "memory_MB": peak_memory(),
-        **compression_results(simulation, curves),
-        **side_results(curves),
+        **pressed,
         **energy_results(simulation, curves),
     }
 
@@ -186,12 +188,14 @@ def hertz_modulus(
     """Return E of a Hertzian sphere between two plates with the same force at a strain, in Pa.
 
     F = 4/3 E/(1 − ν²) √R (δ/2)^1.5 with R half the height and δ the plates' approach; the force is the mean over a
-    tenth of the strain on either side.
+    tenth of the strain on either side. None where the run ends before, or nothing presses there.
     """
     if strain[-1] < at:
         return None
     near = np.abs(strain - at) <= 0.1 * at
     mean = float(force[near].mean()) if near.any() else float(np.interp(at, strain, force))
+    if mean <= 0.0:
+        return None
     return float(mean * 0.75 * (1.0 - nu**2) / (sqrt(0.5 * height) * (0.5 * at * height) ** 1.5))
 
 

@@ -20,6 +20,10 @@ def test_the_hertz_modulus_is_that_of_the_sphere_that_gives_the_same_force() -> 
     assert hertz_modulus(STRAIN, force, 0.02, height, nu) == pytest.approx(E, rel=2e-3)
 
 
+def test_a_plate_that_does_not_touch_yet_has_no_hertz_modulus() -> None:
+    assert hertz_modulus(STRAIN, np.maximum(STRAIN - 0.03, 0.0), 0.02, 1.0, 0.2) is None
+
+
 def test_a_run_that_ends_before_the_strain_has_no_hertz_modulus() -> None:
     assert hertz_modulus(STRAIN, STRAIN, 0.2, 1.0, 0.2) is None
 

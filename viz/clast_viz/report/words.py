@@ -71,6 +71,7 @@ def warnings(opened: Opened) -> list[str]:
     summary, energy = run.summary, run.summary.get("energy") or {}
     if summary.get("time_step_warning"):
         told.append(str(summary["time_step_warning"]))
+    told += map(str, summary.get("warnings") or ())
     if summary.get("particles_removed"):
         told.append(f"{summary['particles_removed']} particles left the domain and were removed.")
     return told + (list(_of_energy(energy)) if isinstance(energy, dict) else [])
@@ -81,7 +82,7 @@ def _of_the_end(run: Run) -> Iterator[str]:
         yield "The run has not come to its end: this is what it wrote until then. Go on with clast run --resume."
     elif _summary_rows(run) is None:
         yield "The run has no summary that this version can read; what follows is read off its curves."
-    if run.complete and run.summary.get("peak_inside_run") is False:
+    if run.complete and run.summary.get("peak_inside_run") is False and run.summary.get("peak_stress_Pa") != 0.0:
         yield "The stress had not fallen by a fifth when the run ended: its highest value need not be the peak."
 
 
@@ -117,6 +118,9 @@ def _of_curve(run: Run, references: Sequence[Reference]) -> Iterator[Figure]:
     if not has_compression(run):
         return
     top = peak(run)
+    if top.stress <= 0.0:
+        yield Figure("peak stress", "none", "the upper wall met nothing")
+        return
     stress = strain = ""
     if references:
         first = references[0]
