@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 from click.testing import CliRunner, Result
@@ -146,6 +147,20 @@ def test_bonds_without_compression_are_drawn_over_time(tmp_path: Path) -> None:
     assert "time [ms]" in page.text
 
 
+def test_what_a_tube_carries_is_drawn_with_the_lateral_pressure_coefficient(tmp_path: Path) -> None:
+    scene = small_grain()
+    stress = scene.curves["stress_Pa"]
+    side = {"stress_lower_Pa": 0.8 * stress, "stress_side_Pa": 0.4 * stress}
+    side["lateral_pressure_coefficient"] = np.where(stress > 0.0, 0.4 / 0.9, 0.0)
+    tube = write_run(tmp_path / "tube", scene._replace(curves={**scene.curves, **side}))
+    title = "Stress on plates and side, and lateral pressure coefficient"
+    page = page_of(tube)
+    assert title in page.text
+    for name in ("upper wall", "lower wall", "side"):
+        assert f">{name}<" in page.source or name in page.text
+    assert title not in page_of(write_run(tmp_path / "plates", scene)).text
+
+
 def test_a_run_that_has_not_ended_is_shown_as_far_as_it_came(tmp_path: Path) -> None:
     folder = write_run(tmp_path / "run", small_grain(), complete=False)
     (folder / "summary.json").unlink()
@@ -178,6 +193,7 @@ def test_a_summary_of_another_version_costs_the_summary_only(tmp_path: Path) -> 
     ("told", "warning"),
     [
         ({"particles_removed": 3}, "3 particles left the domain"),
+        ({"warnings": ["the bed ends 3 mm below"]}, "the bed ends 3 mm below"),
         ({"peak_inside_run": False}, "need not be the peak"),
         ({"time_step_warning": "the step was 1.2 of the limit"}, "the step was 1.2 of the limit"),
         ({"energy": {"closure": -0.25, "incomplete": None}}, "no better than 25.0% of the work"),

@@ -17,6 +17,7 @@ from clast_viz.report import charts
 from clast_viz.report.grain_section import grain_section
 from clast_viz.report.pieces import Pieces, pieces
 from clast_viz.report.section import Drawer, Member, Section, left_out
+from clast_viz.report.side_chart import has_side, side
 
 
 def chart_sections(runs: Sequence[Member]) -> Iterator[Section]:
@@ -39,6 +40,11 @@ def _curves(runs: Sequence[Member], draw: Drawer) -> Section:
     if pressed:
         lines = partial(charts.stress_strain, _lines(pressed))
         section.charts.append(draw("Stress and bonds broken over strain", lines))
+    around = [member for member in pressed if has_side(member.run)]
+    if around:
+        caption = "K, the lateral pressure coefficient, is the stress on the side over the mean of those on the plates."
+        title = "Stress on plates and side, and lateral pressure coefficient"
+        section.charts.append(draw(title, partial(side, _lines(around)), caption))
     section.notes += left_out(
         others, runs, "no stress–strain curve, as the scene has no compression, or no two samples were taken"
     )
