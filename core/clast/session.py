@@ -87,7 +87,7 @@ def run_scene(
         If the folder, the checkpoint or the run fails.
     """
     listener, folder = listener or Listener(), Path(folder)
-    session = None
+    session, goes_on = None, False
     try:
         with stoppable(), run_folder(folder, resume) as goes_on:
             if goes_on:
@@ -98,7 +98,8 @@ def run_scene(
             session.advance()
             return session.finish()
     except StopError as stop:  # before or after the step loop, which handles signals itself
-        advice = GO_ON if session is not None else "nothing was written yet"
+        untouched = f"the checkpoint is as it was: {GO_ON}" if goes_on else "nothing was written yet"
+        advice = GO_ON if session is not None else untouched
         raise RunInterruptedError(stop.number, advice) from None
 
 

@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from clast import load, run_scene
+from clast.results.watch import RunInterruptedError, StopError
+from clast.session import Listener
 from tests.scenes import COLLISION, write
 
 AT_AN_IMPORT = """
@@ -39,3 +42,16 @@ def test_a_stop_while_something_is_imported_is_one_line(tmp_path: Path, module: 
     assert told.stderr.startswith(f"stopped by {signal.Signals(number).name}")
     assert told.stderr.count("\n") == 1
     assert not list((tmp_path / "runs").glob("*"))
+
+
+def test_a_stop_while_a_run_is_built_that_goes_on_says_that_its_checkpoint_is_there(tmp_path: Path) -> None:
+    class Stopping(Listener):
+        def building(self) -> None:
+            raise StopError(signal.SIGTERM)
+
+    config = load(write(tmp_path, COLLISION))
+    with pytest.raises(RunInterruptedError, match="stopped by SIGTERM; nothing was written yet"):
+        run_scene(config, tmp_path / "run", listener=Stopping())
+    run_scene(config, tmp_path / "run")
+    with pytest.raises(RunInterruptedError, match="SIGTERM; the checkpoint is as it was: go on with --resume"):
+        run_scene(config, tmp_path / "run", resume=True, listener=Stopping())

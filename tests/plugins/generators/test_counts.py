@@ -24,6 +24,17 @@ def test_shares_are_rounded_so_that_they_add_up() -> None:
     assert counts(shares, 100, None).grains.sum() == 100
 
 
+@pytest.mark.parametrize("grains", [None, 4, 1396])
+def test_shares_of_more_than_all_are_told_as_shares(grains: int | None) -> None:
+    shares = [THREE[0]._replace(share=0.7), THREE[1]._replace(share=0.4), THREE[2]]
+    with pytest.raises(ConfigError, match="the shares make 110 %; at most 100 % is needed"):
+        counts(shares, grains, None)
+
+
+def test_rounded_shares_are_let_pass() -> None:
+    assert counts([each._replace(share=0.333) for each in THREE], 100, None).grains.sum() == 100
+
+
 def test_without_a_mass_the_prior_decides() -> None:
     shares = [each._replace(prior=p) for each, p in zip(THREE, (0.2, 0.3, 0.5), strict=True)]
     assert counts(shares, 100, None).grains.tolist() == [20, 30, 50]
@@ -80,7 +91,7 @@ def test_the_nearest_counts_meet_both_sums_and_are_not_negative(masses: list[flo
     ("shares", "grains", "mass", "sentence"),
     [
         ([each._replace(grains=5) for each in THREE], 16, None, "15 grains together, not 16"),
-        ([each._replace(share=0.3) for each in THREE], 100, None, "90 grains together, not 100"),
+        ([each._replace(share=0.3) for each in THREE], 100, None, "the shares make 90 %; 100 % is needed"),
         ([THREE[0]._replace(grains=11), *THREE[1:]], 10, None, "11 grains together, not 10"),
         (THREE, None, 10.0, "the number of all is needed"),
         (THREE, 10, 8.0, "weigh 10000 to 40000 g, and 8000 g are left"),

@@ -17,6 +17,8 @@ from clast.errors import ConfigError
 Floats = NDArray[np.float64]
 MOST_SCALING = 0.05
 """Share by which all diameters may be changed together so that the mass is met."""
+ROUNDED = 0.005
+"""What shares that a user rounded may lack of 1, or have more."""
 
 
 class Share(NamedTuple):
@@ -65,6 +67,7 @@ def counts(shares: Sequence[Share], grains: int | None, mass: float | None) -> C
     """
     if all(each.grains is not None for each in shares):
         return Counts(_some(_all_given(shares, grains)), None)
+    _refuse_shares(shares)
     if grains is None:
         raise ConfigError("not every fraction has its number of 'grains', so the number of all is needed", ("grains",))
     fixed = np.array([_fixed(each, grains) for each in shares])
@@ -127,6 +130,15 @@ def _all_given(shares: Sequence[Share], grains: int | None) -> NDArray[np.int64]
     if grains is not None and count.sum() != grains:
         raise ConfigError(f"the fractions have {count.sum()} grains together, not {grains}", ("grains",))
     return count
+
+
+def _refuse_shares(shares: Sequence[Share]) -> None:
+    """Refuse shares of more than all grains, and of less where no fraction is left for the rest."""
+    total = sum(each.share or 0.0 for each in shares)
+    complete = all(each.share is not None for each in shares)
+    if total > 1.0 + ROUNDED or (complete and total < 1.0 - ROUNDED):
+        most = "" if complete else "at most "
+        raise ConfigError(f"the shares make {100.0 * total:.6g} %; {most}100 % is needed", ("fractions",))
 
 
 def _fixed(each: Share, grains: int) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,9 +14,11 @@ import numpy as np
 
 from clast.errors import ConfigError, one_line
 from clast.parts.generator import Packing
+from clast.results.room import in_memory
 from clast.results.whole_file import whole_file
 
 ARRAYS = ("position", "radius", "grain")
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 FORMAT = 1
 """Number of the way in which fills are made: another one makes another fill of the same keys."""
 
@@ -91,16 +94,18 @@ def write(path: Path, packing: Packing, keys: dict[str, Any]) -> None:
     ConfigError
         If the file cannot be written.
     """
-    import h5py
-
     material = sorted(set(packing.material))
     keys = keys | {"density": {name: keys["density"].get(name) for name in material}}
-    with _telling(path), whole_file(path) as draft, h5py.File(draft, "w") as file:
+
+    def fill(file: Any) -> None:
         for name in ARRAYS:
             file[name] = getattr(packing, name)
         file.attrs["keys"], file.attrs["report"] = json.dumps(keys), json.dumps(dict(packing.report))
         file.attrs["material"] = json.dumps(material if len(material) == 1 else packing.material)
         file.attrs["relieved"], file.attrs["format"] = packing.relieved, FORMAT
+
+    with _telling(path), whole_file(path) as draft:
+        draft.write_bytes(in_memory(fill))
 
 
 @contextmanager
@@ -108,8 +113,8 @@ def _telling(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        why = one_line(error)
-        raise ConfigError(f"{path}: cannot be written ({why}); free some space, or name another file") from error
+        advice = "free some space, or name" if error.errno in FULL else "name"
+        raise ConfigError(f"{path}: cannot be written ({error.strerror}); {advice} another file") from error
 
 
 def different(one: Any, other: Any, at: str = "") -> list[str]:
