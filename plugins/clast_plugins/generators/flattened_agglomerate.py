@@ -1,4 +1,4 @@
-"""Flattened agglomerate: equal spheres packed at random into a sphere between two plates."""
+"""Flattened agglomerate: spheres packed at random into a sphere between two plates."""
 
 from __future__ import annotations
 
@@ -13,32 +13,30 @@ from clast.config.quantities import Length
 from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.plugins.registry import Registry
 from clast.scene.packing_report import cut_sphere_volume, porosity
-from clast_plugins.generators.packing.agglomerate import (
-    AgglomerateParams,
-    Body,
-    make_agglomerate,
-    millimetres,
-    number_of_primaries,
-    predict_agglomerate,
-)
+from clast_plugins.generators.packing.agglomerate import AgglomerateParams, make_agglomerate, predict_agglomerate
+from clast_plugins.generators.packing.fill import Body
 from clast_plugins.generators.packing.macro_pores import refuse_senseless
+from clast_plugins.generators.packing.room import CutBall
+from clast_plugins.generators.packing.spheres import millimetres, number_of_primaries, primary_of
 
 
 class FlattenedAgglomerate(AgglomerateParams):
-    """Equal spheres packed at random, each wholly inside a sphere cut by two plates across the z axis.
+    """Spheres packed at random, equal or of scattered sizes, each wholly inside a sphere cut by two plates across z.
 
-    Equation: N = ⌊(1 − p)·(D/d)³⌋ primaries, counted from the *uncut* sphere.
+    Equation: N = ⌊(1 − p)·(D/d)³⌋ primaries of diameters d_i with Σ d_i³ = N d³, counted from the *uncut* sphere.
 
     Symbols: D diameter of the uncut sphere in m; h distance of the plates in m, at ± h/2 from the centre; d
-    diameter of a primary in m; p porosity, the share of the uncut sphere that N primaries leave free.
-    Between the plates it is a little less, and reported too.
+    diameter of a primary in m, of the one of mean volume where they differ (see ``spherical_agglomerate``); p
+    porosity, the share of the uncut sphere that N primaries leave free. Between the plates it is a little less,
+    and reported too.
 
     Source: Rotter, Dosta and Düster (2023), doi:10.1007/s40571-023-00610-0, Section 4.1 and Fig. 18. The
     paper does not say which volume its porosity refers to; counted from the uncut sphere, its optimised
     grain has 428 primaries and crushes as reported:
 
-    >>> number_of_primaries(FlattenedAgglomerate(material="glass", volume_diameter="2.3 mm", height="2.16 mm",
-    ...     primary_diameter="0.25 mm", porosity=0.45))
+    >>> grain = FlattenedAgglomerate(material="glass", volume_diameter="2.3 mm", height="2.16 mm",
+    ...     primary_diameter="0.25 mm", porosity=0.45)
+    >>> number_of_primaries(grain, grain.volume_diameter)
     428
     """
 
@@ -46,11 +44,6 @@ class FlattenedAgglomerate(AgglomerateParams):
         Length, Field(gt=0, examples=["1.2 mm"], description="Diameter of the sphere before it is flattened")
     ]
     height: Annotated[Length, Field(gt=0, examples=["0.9 mm"], description="Distance of the two plates, along z")]
-
-    @property
-    def whole(self) -> float:
-        """Diameter of the uncut sphere in m."""
-        return self.volume_diameter
 
     @model_validator(mode="after")
     def _fits(self) -> FlattenedAgglomerate:
@@ -60,12 +53,13 @@ class FlattenedAgglomerate(AgglomerateParams):
                 f"{millimetres(self.volume_diameter)}: nothing would be flattened; "
                 "exchange them, or use 'spherical_agglomerate'"
             )
-        if self.primary > self.height:
+        primary = primary_of(self, self.volume_diameter)
+        if primary > self.height:
             raise ValueError(
-                f"a primary of {millimetres(self.primary)} does not fit between plates {millimetres(self.height)} apart"
+                f"a primary of {millimetres(primary)} does not fit between plates {millimetres(self.height)} apart"
             )
-        number_of_primaries(self)
-        refuse_senseless(self.macro_pores, self.height, self.primary)
+        number_of_primaries(self, self.volume_diameter)
+        refuse_senseless(self.macro_pores, self.height, primary)
         return self
 
 
@@ -85,24 +79,21 @@ def generate(params: FlattenedAgglomerate, site: Site) -> Packing:
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set; or there is no room for the pores, or they
         cut the grain into pieces.
     """
-    packing, reached = make_agglomerate(params, _body(params))
-    return replace(packing, report={"primaries": len(packing.radius), **_shape(params, packing), **reached})
+    packing = make_agglomerate(params, _body(params))
+    return replace(packing, report={**packing.report, **_shape(params, packing)})
 
 
 def _body(params: FlattenedAgglomerate) -> Body:
     words = f"a sphere of {millimetres(params.volume_diameter)} cut to a height of {millimetres(params.height)}"
-    return Body(params.volume_diameter, params.height, words)
+    room = CutBall(0.5 * params.volume_diameter, 0.5 * params.height)
+    return Body(room, params.volume_diameter, words)
 
 
 def _shape(params: FlattenedAgglomerate, packing: Packing) -> dict[str, float]:
     x = packing.position - np.asarray(params.centre)
     outer = np.sqrt(x[:, 0] ** 2 + x[:, 1] ** 2) + packing.radius
-    uncut = cut_sphere_volume(params.volume_diameter, params.volume_diameter)
     cut = cut_sphere_volume(params.volume_diameter, params.height)
-    asked = {} if params.porosity is None else {"porosity_asked": params.porosity}
     return {
-        **asked,
-        "porosity_reached": porosity(packing.radius, uncut),
         "porosity_between_plates": porosity(packing.radius, cut),
         "height_m": float(np.max(x[:, 2] + packing.radius) - np.min(x[:, 2] - packing.radius)),
         "width_m": 2.0 * float(np.max(outer)),
@@ -115,7 +106,7 @@ def clast_register(registry: Registry) -> None:
     registry.generator(
         "flattened_agglomerate",
         Generator(
-            summary="randomly packed equal spheres in a sphere flattened between two plates",
+            summary="randomly packed spheres in a sphere flattened between two plates",
             Params=FlattenedAgglomerate,
             generate=generate,
             predict=predict,

@@ -11,9 +11,11 @@ import pytest
 from pydantic import ValidationError
 
 from clast.errors import ConfigError, PackingError
-from clast.parts.generator import Packing, Site
+from clast.parts.generator import Gaps, Packing, Site
+from clast.plugins.discovery import discover
 from clast.scene.bonding import bond_neighbours
 from clast.scene.packing_report import overlaps
+from clast.testing.kit import try_part
 from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
 from clast_plugins.generators.flattened_agglomerate import FlattenedAgglomerate
 from clast_plugins.generators.spherical_agglomerate import SphericalAgglomerate
@@ -185,3 +187,70 @@ def test_a_packing_has_one_entry_per_primary_in_every_array(base_grain: Packing)
     assert not base_grain.prescribed.any()
     assert base_grain.bonds is None
     assert math.isclose(base_grain.radius.max(), 0.125e-3)
+
+
+SPREAD = {"diameter": "1.2 mm", "primary_diameter": "0.2 mm", "porosity": 0.5, "primary_deviation": 0.2}
+
+
+@pytest.mark.parametrize("distribution", ["normal", "lognormal"])
+def test_scattered_primaries_have_the_volume_of_equal_ones_and_the_deviation_asked_for(distribution: str) -> None:
+    scattered = spherical_agglomerate.generate(sphere(**SPREAD, primary_distribution=distribution), HERE)
+    diameter = 2.0 * scattered.radius
+    assert len(diameter) == 108
+    assert math.fsum(diameter**3) == pytest.approx(108 * 0.2e-3**3, rel=1e-12)
+    assert diameter.std() / diameter.mean() == pytest.approx(0.2, rel=0.03)
+    assert scattered.report["porosity_reached"] == pytest.approx(0.5, abs=1e-12)
+    assert scattered.report["primary_diameter_deviation_m"] == pytest.approx(diameter.std())
+    assert (np.linalg.norm(scattered.position, axis=1) + scattered.radius).max() <= 0.6e-3 * (1 + 1e-12)
+    assert overlaps(scattered.position, scattered.radius).largest <= 1e-4 * diameter.min()
+
+
+def test_large_and_small_primaries_lie_everywhere() -> None:
+    scattered = spherical_agglomerate.generate(sphere(**SPREAD | {"primary_diameter": "0.1 mm"}), HERE)
+    large = scattered.radius > np.median(scattered.radius)
+    assert np.abs(scattered.position[large].mean(axis=0)).max() < 0.05e-3
+
+
+def test_seeds_give_the_same_sizes_in_other_places() -> None:
+    one, other = (spherical_agglomerate.generate(sphere(**SPREAD, seed=seed), HERE) for seed in (1, 2))
+    np.testing.assert_array_equal(one.radius, other.radius)
+    assert np.abs(one.position - other.position).max() > 0.1e-3
+
+
+@pytest.mark.parametrize("relative", [True, False])
+def test_the_bonds_of_scattered_primaries_are_foretold(relative: bool) -> None:
+    params = sphere(**SPREAD)
+    most = 0.5 if relative else 0.1e-3
+    gaps = Gaps(-math.inf, most, relative)
+    made = spherical_agglomerate.generate(params, HERE)
+    bonds = len(bond_neighbours(made.position, made.radius, most, relative=relative).ends)
+    told = spherical_agglomerate.predict(params, HERE, gaps)
+    assert told.bonds is not None
+    assert told.bonds.band < 0.25
+    assert bonds == pytest.approx(told.bonds.value, rel=told.bonds.band)
+    assert told.radius == made.radius.min()
+
+
+def test_a_largest_primary_without_room_is_refused() -> None:
+    flat = flattened(height="0.27 mm", primary_deviation=0.3)
+    with pytest.raises(ConfigError, match=r"the largest primary, 0\.\d+ mm, does not fit .* up to 0\.27 mm") as caught:
+        flattened_agglomerate.predict(flat, HERE, None)
+    assert caught.value.at == ("primary_deviation",)
+
+
+@pytest.mark.parametrize("deviation", [-0.1, 0.4, "0.02 mm"])
+def test_a_deviation_is_a_share_that_leaves_every_primary_a_size(deviation: Any) -> None:
+    with pytest.raises(ValidationError, match="primary_deviation"):
+        sphere(primary_deviation=deviation)
+
+
+def test_scattered_primaries_can_have_macro_pores() -> None:
+    carved = spherical_agglomerate.generate(sphere(**SPREAD, macro_pores={"count": 1, "diameter": "0.4 mm"}), HERE)
+    assert int(carved.report["primaries_in_macro_pores"]) > 0
+    assert overlaps(carved.position, carved.radius).largest <= 1e-4 * 2 * carved.radius.min()
+    assert len(carved.radius) == carved.report["primaries"]
+
+
+@pytest.mark.parametrize("name", ["spherical_agglomerate", "flattened_agglomerate"])
+def test_agglomerates_keep_to_what_holds_for_every_generator(name: str) -> None:
+    assert [each for each in try_part(discover().get("generator", name)) if not each.passed] == []

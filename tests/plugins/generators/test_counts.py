@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from clast.errors import ConfigError
 from clast_plugins.generators.filling.counts import Share, counts, extremes, nearest
-from clast_plugins.generators.filling.sizes import mean_cube, sizes
+from clast_plugins.generators.sizes import mean_cube, sizes
 
 THREE = (Share("small", 1.0), Share("middle", 2.0), Share("large", 4.0))
 

@@ -23,13 +23,13 @@ from clast.scene.build import build_scene
 from clast.scene.packing_report import cut_sphere_volume, porosity, sphere_volume
 from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
 from clast_plugins.generators.flattened_agglomerate import FlattenedAgglomerate
-from clast_plugins.generators.packing.container import Container
 from clast_plugins.generators.packing.macro_pores import MacroPores, Voids, carve, make_voids
+from clast_plugins.generators.packing.room import CutBall
 from clast_plugins.generators.spherical_agglomerate import SphericalAgglomerate
 
 HERE = Site(Path())
 CONFIGS = Path(__file__).parents[3] / "configs"
-GRAIN = Container(1.0, 0.8)
+GRAIN = CutBall(1.0, 0.8)
 VOLUME = cut_sphere_volume(2.0, 1.6)
 
 
@@ -54,7 +54,7 @@ def test_pores_lie_inside_the_grain_with_walls_between_them(
     seed: int, count: int, mean: float, spread: float, wall: float
 ) -> None:
     sizes = {"mean": mean, "deviation": spread * mean}
-    voids = make_voids(MacroPores(count=count, diameter=sizes, wall=wall, seed=seed), GRAIN, VOLUME)  # type: ignore[arg-type]
+    voids = make_voids(MacroPores(count=count, diameter=sizes, wall=wall, seed=seed), GRAIN)  # type: ignore[arg-type]
     radius = 0.5 * voids.diameter
     assert len(radius) == count
     assert (np.linalg.norm(voids.centre, axis=1) + radius + wall).max() <= 1.0 + 1e-12
@@ -65,14 +65,14 @@ def test_pores_lie_inside_the_grain_with_walls_between_them(
 
 def test_diameters_have_the_mean_and_deviation_asked_for() -> None:
     pores = MacroPores(count=400, diameter={"mean": 0.02, "deviation": 0.005}, seed=3)  # type: ignore[arg-type]
-    found = make_voids(pores, GRAIN, VOLUME).diameter
+    found = make_voids(pores, GRAIN).diameter
     assert found.mean() == pytest.approx(0.02, abs=4 * 0.005 / math.sqrt(400))
     assert found.std() == pytest.approx(0.005, rel=0.2)
 
 
 def test_places_are_uniform_in_the_grain() -> None:
     pores = [MacroPores(count=1, diameter=0.2, seed=seed) for seed in range(400)]
-    centres = [make_voids(each, Container(1.0), 4.2).centre[0] for each in pores]
+    centres = [make_voids(each, CutBall(1.0)).centre[0] for each in pores]
     share = (np.linalg.norm(centres, axis=1) / 0.9) ** 3  # uniform from 0 to 1
     assert np.mean(share) == pytest.approx(0.5, abs=4 / math.sqrt(12 * 400))
     assert np.abs(np.mean(centres, axis=0)).max() < 4 * 0.9 * math.sqrt(0.2 / 400)
@@ -82,7 +82,7 @@ def test_places_are_uniform_in_the_grain() -> None:
 @given(share=st.floats(0.02, 0.15), seed=st.integers(0, 1000))
 def test_as_many_pores_are_made_as_come_nearest_to_the_share(share: float, seed: int) -> None:
     sizes = {"mean": 0.25, "deviation": 0.05}
-    voids = make_voids(MacroPores(porosity=share, diameter=sizes, seed=seed), GRAIN, VOLUME)  # type: ignore[arg-type]
+    voids = make_voids(MacroPores(porosity=share, diameter=sizes, seed=seed), GRAIN)  # type: ignore[arg-type]
     assert abs(voids.volume - share * VOLUME) <= 0.5 * sphere_volume(voids.diameter.max()) * (1 + 1e-9)
 
 
@@ -97,7 +97,7 @@ def test_the_same_seed_gives_the_same_bytes_and_another_one_another_grain() -> N
 def test_exactly_the_primaries_whose_centres_lie_in_a_pore_are_left_out() -> None:
     whole = packed(None)
     grain = packed({"count": 3, "diameter": "0.5 mm", "seed": 3})
-    voids = make_voids(MacroPores(count=3, diameter=0.5e-3, seed=3), Container(0.8e-3), sphere_volume(1.6e-3))
+    voids = make_voids(MacroPores(count=3, diameter=0.5e-3, seed=3), CutBall(0.8e-3))
     inside = (np.linalg.norm(whole.position[:, None] - voids.centre, axis=2) < 0.25e-3).any(axis=1)
     assert inside.sum() > 10
     np.testing.assert_array_equal(grain.position, whole.position[~inside])
@@ -140,7 +140,7 @@ def test_a_flattened_grain_has_its_pores_between_the_plates() -> None:
 
 def test_what_hangs_on_nothing_falls_off_and_is_counted() -> None:
     row = np.column_stack([np.arange(60) * 1.2, np.zeros(60), np.zeros(60)])
-    carved = carve(Voids(np.array([[2.4, 0.0, 0.0]]), np.array([2.0])), row, 1.0)
+    carved = carve(Voids(np.array([[2.4, 0.0, 0.0]]), np.array([2.0])), row, np.full(60, 0.5))
     assert np.flatnonzero(~carved.kept).tolist() == [0, 1, 2]
     assert (carved.inside, carved.loose) == (1, 2)
 
@@ -148,7 +148,7 @@ def test_what_hangs_on_nothing_falls_off_and_is_counted() -> None:
 def test_pores_that_cut_a_grain_into_pieces_are_refused() -> None:
     row = np.column_stack([np.arange(60) * 1.2, np.zeros(60), np.zeros(60)])
     with pytest.raises(PackingError, match=r"cut the grain into 2 pieces: 29 of 5\d primaries do not hang") as caught:
-        carve(Voids(np.array([[36.0, 0.0, 0.0]]), np.array([2.0])), row, 1.0)
+        carve(Voids(np.array([[36.0, 0.0, 0.0]]), np.array([2.0])), row, np.full(60, 0.5))
     assert caught.value.at == ("macro_pores",)
 
 

@@ -1,8 +1,8 @@
-"""Packings: what is regular has the neighbours that crystallography tells."""
+"""Packings: regular ones have the neighbours that crystallography tells, random ones the volume and sizes asked for."""
 
 from __future__ import annotations
 
-from math import sqrt
+from math import erf, exp, log1p, pi, sqrt
 
 import numpy as np
 
@@ -48,11 +48,53 @@ def judge_lattice(bench: Bench) -> Findings:
     yield Sketch("spheres around one on a lattice", "distance, in those of the nearest", "spheres", tuple(lines))
 
 
+CUT = 3.0
+"""Where the distributions of sizes are cut, in deviations."""
+
+ASKED = 0.2
+
+
+def cut_normal_deviation(cut: float) -> float:
+    """Return the standard deviation of the standard normal distribution within ± ``cut``.
+
+    >>> round(cut_normal_deviation(1e3), 12), round(cut_normal_deviation(3.0), 4)
+    (1.0, 0.9866)
+    """
+    inside = erf(cut / sqrt(2.0))
+    return sqrt(1.0 - 2.0 * cut * exp(-0.5 * cut**2) / sqrt(2.0 * pi) / inside)
+
+
+def judge_scatter(bench: Bench) -> Findings:
+    """Compare the volume of primaries of scattered sizes with that of equal ones, and how far they scatter."""
+    equal = bench.start({"particles.primary_deviation": 0.0}).scene.radius
+    lines = []
+    for distribution in ("normal", "lognormal"):
+        radius = bench.start({"particles.primary_distribution": distribution}).scene.radius
+        yield Finding(
+            f"{distribution}: volume of all primaries, m3",
+            float(4.0 / 3.0 * pi * np.sum(equal**3)),
+            float(4.0 / 3.0 * pi * np.sum(radius**3)),
+            1e-12,
+        )
+        scatter = radius / radius.mean() if distribution == "normal" else np.log(radius)
+        whole = ASKED if distribution == "normal" else sqrt(log1p(ASKED**2))
+        found = float(scatter.std())
+        yield Finding(
+            f"{distribution}: deviation of {'sizes' if distribution == 'normal' else 'their logarithms'}",
+            whole * cut_normal_deviation(CUT),
+            found,
+            0.01,
+        )
+        share = (np.arange(len(radius)) + 0.5) / len(radius)
+        lines.append(Line(f"{distribution}: Clast", np.sort(radius) / equal[0], share))
+    yield Sketch("sizes of scattered primaries", "diameter, in that of equal ones", "share below", tuple(lines))
+
+
 FAMILY = Family(
     "packings",
-    "Regular packings",
+    "Packings",
     "Around the middle of a ball of spheres on a lattice: how many there are at each distance, and how many of them "
-    "are bonded to it. Nothing moves.",
+    "are bonded to it. Spheres packed at random: their volume, their sizes and the body they fill. Nothing moves.",
     (
         Case(
             "lattice_shells",
@@ -61,6 +103,15 @@ FAMILY = Family(
             judge_lattice,
             "C. Kittel (2005), Introduction to Solid State Physics, 8th ed., ch. 1: neighbours of the cubic and the "
             "hexagonal lattices",
+        ),
+        Case(
+            "scattered_primaries",
+            "volume and deviation of primaries of scattered sizes",
+            "packing",
+            judge_scatter,
+            "the volume of as many equal primaries; normal distribution cut at ± c: deviation "
+            "√(1 − 2 c φ(c)/(2 Φ(c) − 1)) of that of the whole one (N. L. Johnson, S. Kotz, N. Balakrishnan (1994), "
+            "Continuous Univariate Distributions 1, 2nd ed., § 13.10)",
         ),
     ),
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from clast_plugins.generators.packing.container import uniforms
+from clast_plugins.generators.packing.room import uniforms
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -15,7 +15,7 @@ from clast_plugins.generators.filling.fraction import Fraction
 from clast_plugins.generators.filling.outline import outline
 from clast_plugins.generators.filling.recipe import MOST_OFF, mass_factor, shares_of
 from clast_plugins.generators.filling.room import Room
-from clast_plugins.generators.filling.sizes import sizes
+from clast_plugins.generators.sizes import sizes
 
 Floats = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from clast.config.choice import Chosen, PartOf
 from clast.config.quantities import Length, Number
 from clast.parts.params import Params
-from clast_plugins.generators.filling.sizes import FARTHEST
+from clast_plugins.generators.sizes import FARTHEST
 
 
 class Fraction(Params):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from clast.config.scene import from_mapping
 from clast.errors import ConfigError, PackingError, RunError
 from clast_plugins.generators.filling.room import Room
-from clast_plugins.generators.packing.container import uniforms
+from clast_plugins.generators.packing.room import uniforms
 
 if TYPE_CHECKING:
     from clast import Simulation

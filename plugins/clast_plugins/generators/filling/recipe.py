@@ -13,8 +13,8 @@ from clast.parts.generator import Site
 from clast_plugins.generators.filling.counts import MOST_SCALING, Counts, Share, counts
 from clast_plugins.generators.filling.dice import random_order
 from clast_plugins.generators.filling.fraction import Fraction
-from clast_plugins.generators.filling.sizes import mean_cube, sizes
 from clast_plugins.generators.filling.templates import Template, templates
+from clast_plugins.generators.sizes import mean_cube, sizes
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -1,1 +1,1 @@
-"""Random packings of equal spheres, shared by the generators of agglomerates."""
+"""Random packings of spheres, shared by the generators of agglomerates."""

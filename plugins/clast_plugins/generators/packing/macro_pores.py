@@ -25,13 +25,13 @@ from clast.parts.params import Params
 from clast.results.fragments import fragments
 from clast.scene.bonding import close_pairs
 from clast.scene.packing_report import sphere_volume
-from clast_plugins.generators.packing.container import Container, Floats, random_centres
+from clast_plugins.generators.packing.room import Floats, Room
 
 MOST_PORES = 100_000
 TRIALS, BATCHES, STARTS = 64, 32, 20
 """Places tried at a time and how often for a pore, and how often all pores are placed anew."""
 REACH = 0.5
-"""Largest gap, in primary diameters, across which primaries hold together."""
+"""Largest gap, in mean primary diameters, across which primaries hold together."""
 MOST_LOOSE = 0.05
 """Share of the primaries that may fall off; with more the grain is in pieces."""
 
@@ -109,16 +109,14 @@ def refuse_senseless(pores: MacroPores | None, room: float, primary: float) -> N
         raise refuse([problem(("macro_pores", "diameter"), text)])
 
 
-def make_voids(pores: MacroPores, grain: Container, volume: float) -> Voids:
+def make_voids(pores: MacroPores, grain: Room) -> Voids:
     """Draw pores and place them at random in a grain.
 
     Parameters
     ----------
     pores : MacroPores
-    grain : Container
+    grain : Room
         The grain itself, in m.
-    volume : float
-        Its volume in m³.
 
     Raises
     ------
@@ -127,7 +125,7 @@ def make_voids(pores: MacroPores, grain: Container, volume: float) -> Voids:
     PackingError
         There is no room for all of them.
     """
-    diameter = np.sort(_diameters(pores, volume))[::-1]
+    diameter = np.sort(_diameters(pores, grain.volume))[::-1]
     stream = np.random.Philox(pores.seed)
     most = 0
     for _ in range(STARTS):
@@ -135,7 +133,7 @@ def make_voids(pores: MacroPores, grain: Container, volume: float) -> Voids:
         if len(centre) == len(diameter):
             return Voids(centre, diameter)
         most = max(most, len(centre))
-    share = math.fsum(sphere_volume(1.0) * diameter**3) / volume
+    share = math.fsum(sphere_volume(1.0) * diameter**3) / grain.volume
     raise PackingError(
         f"no room for {len(diameter)} pores of {_mm(diameter[-1])} to {_mm(diameter[0])}, {share:.0%} of the grain, "
         f"that keep {_mm(pores.wall)} from each other and from the surface: the best of {STARTS} attempts placed "
@@ -175,28 +173,24 @@ def _drawn(pores: MacroPores, count: int) -> Floats:
     return pores.diameter.mean * lognormal(u, pores.diameter.deviation / pores.diameter.mean)
 
 
-def _place(stream: np.random.Philox, diameter: Floats, wall: float, grain: Container) -> Floats:
+def _place(stream: np.random.Philox, diameter: Floats, wall: float, grain: Room) -> Floats:
     """Return the centres of as many pores as found room, one after the other."""
     centre = np.empty((0, 3))
     for pore, each in enumerate(diameter):
         least = 0.5 * (diameter[:pore] + each) + wall
-        found = _free_place(stream, _room(grain, 0.5 * each + wall), centre, least)
+        found = _free_place(stream, grain, 0.5 * each + wall, centre, least)
         if found is None:
             return centre
         centre = np.vstack([centre, found])
     return centre
 
 
-def _room(grain: Container, margin: float) -> Container:
-    return Container(grain.radius - margin, grain.half_height - margin)
-
-
-def _free_place(stream: np.random.Philox, room: Container, centre: Floats, least: Floats) -> Floats | None:
+def _free_place(stream: np.random.Philox, grain: Room, margin: float, centre: Floats, least: Floats) -> Floats | None:
     """Return a random place with at least these distances from the centres there are, None where none was found."""
-    if min(room) < 0.0:
+    if margin > grain.inradius:
         return None
     for _ in range(BATCHES):
-        trial = random_centres(stream, TRIALS, room)
+        trial = grain.random(stream, TRIALS, margin)
         way = trial[:, None, :] - centre[None, :, :]
         free = ((way**2).sum(axis=2) >= least**2).all(axis=1)
         if free.any():
@@ -212,15 +206,15 @@ class Carved(NamedTuple):
     loose: int
 
 
-def carve(voids: Voids, position: Floats, primary: float) -> Carved:
+def carve(voids: Voids, position: Floats, radius: Floats) -> Carved:
     """Take the primaries out of the pores, and those off that then hang on nothing.
 
     Parameters
     ----------
     position : (n, 3) float64
         Centres in m.
-    primary : float
-        Diameter of a primary in m.
+    radius : (n,) float64
+        Radii in m.
 
     Raises
     ------
@@ -234,7 +228,7 @@ def carve(voids: Voids, position: Floats, primary: float) -> Carved:
     if not kept.any():
         raise PackingError("the pores leave no primary; take fewer or smaller pores", ("macro_pores",))
     left = np.flatnonzero(kept)
-    ends, _ = close_pairs(position[left], np.full(len(left), 0.5 * primary), REACH * primary)
+    ends, _ = close_pairs(position[left], radius[left], REACH * 2.0 * float(radius.mean()))
     piece = fragments(len(left), ends, np.ones(len(ends), bool))
     fallen = left[piece != np.argmax(np.bincount(piece))]
     if len(fallen) > MOST_LOOSE * len(left):

@@ -12,16 +12,19 @@ from numpy.typing import NDArray
 @njit(cache=True, error_model="numpy")  # type: ignore[misc,untyped-decorator,unused-ignore]
 def push(
     position: NDArray[np.float64],
+    radius: NDArray[np.float64],
     first: NDArray[np.int64],
     second: NDArray[np.int64],
     force: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Write the force on each sphere of diameter 1; return the largest overlap and the overlap energy.
+    """Write the force on each sphere; return the largest overlap and the overlap energy.
 
     Parameters
     ----------
     position : (n, 3) float64
-        Centres in sphere diameters.
+        Centres.
+    radius : (n,) float64
+        Radii in the same unit.
     first, second : (p,) int64
         The pairs to look at.
     force : (n, 3) float64
@@ -37,10 +40,11 @@ def push(
         y = position[i, 1] - position[j, 1]
         z = position[i, 2] - position[j, 2]
         square = x * x + y * y + z * z
-        if square >= 1.0:
+        reach = radius[i] + radius[j]
+        if square >= reach * reach:
             continue
         distance = math.sqrt(square)
-        overlap = 1.0 - distance
+        overlap = reach - distance
         largest = max(largest, overlap)
         energy += 0.5 * overlap * overlap
         if distance == 0.0:

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from clast.parts.generator import Estimate, Gaps
-from clast_plugins.generators.packing.container import Floats
 from clast_plugins.generators.packing.near_pairs import share_of_bulk
+from clast_plugins.generators.packing.room import Floats
 
 FRACTIONS, DENSITIES = (0.25, 0.4, 0.55), (1.33, 1.23, 1.09)
 """By packing fraction: how much denser centres lie where pores can be than in the whole grain."""

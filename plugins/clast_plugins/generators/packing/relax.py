@@ -1,4 +1,4 @@
-"""Random packing of equal spheres: random points whose overlaps are pushed away.
+"""Random packing of spheres: random points whose overlaps are pushed away.
 
 One attempt has two stages. *Spread*: each sphere moves along the sum of its overlaps, damped so strongly
 that it keeps little memory of its last move, and is put back into the container at once. This is the kind
@@ -10,6 +10,8 @@ relaxed again.
 With less damping in the first stage the spheres settle in smoother shells, with 2 to 3 % fewer neighbours
 within half a diameter. With the damping used here, 361 spheres of 0.25 mm in 2.16 mm have 2131 ± 15 such
 pairs (30 seeds); two packings of the authors' program have 2142 and 2154.
+
+Spheres may differ in size. Two that overlap then share the way that parts them, whatever their sizes.
 
 Everything is counted in sweeps, never in seconds, and every sum runs in a fixed order: a seed gives the
 same bytes on any number of threads.
@@ -28,7 +30,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from clast_plugins.generators.packing.container import Container, confine, random_centres, uniforms
+from clast_plugins.generators.packing.room import Room, squares, uniforms
 
 Floats = NDArray[np.float64]
 
@@ -48,9 +50,9 @@ FADING = 0.9
 
 
 class Relaxed(NamedTuple):
-    """A packing of spheres of diameter 1, and how it was reached.
+    """A packing of spheres, and how it was reached.
 
-    ``position`` is ``(n, 3) float64``; ``overlap`` the largest one left; both in diameters.
+    ``position`` is ``(n, 3) float64``; ``overlap`` the largest one left; both in the unit of the diameters.
     """
 
     position: Floats
@@ -59,19 +61,19 @@ class Relaxed(NamedTuple):
     shakes: int
 
 
-def relax(count: int, container: Container, seed: int, tolerance: float) -> Relaxed:
-    """Pack ``count`` spheres of diameter 1 with their centres in the container.
+def relax(diameter: Floats, room: Room, seed: int, tolerance: float) -> Relaxed:
+    """Pack spheres into a room, each wholly inside.
 
     Parameters
     ----------
-    count : int
-        Number of spheres.
-    container : Container
-        Room of the centres, in diameters.
+    diameter : (n,) float64
+        Of the spheres, in their typical diameter: all lengths that steer the packing are about 1.
+    room : Room
+        What they fill, in the same unit; the largest of them has room in it.
     seed : int
         Start of the random numbers.
     tolerance : float
-        Largest overlap wanted, in diameters.
+        Largest overlap wanted, in the same unit.
 
     Returns
     -------
@@ -80,13 +82,15 @@ def relax(count: int, container: Container, seed: int, tolerance: float) -> Rela
 
     Examples
     --------
-    >>> two = relax(2, Container(radius=0.5), seed=1, tolerance=1e-4)
+    >>> from clast_plugins.generators.packing.room import CutBall
+    >>> two = relax(np.ones(2), CutBall(1.0), seed=1, tolerance=1e-4)
     >>> bool(np.linalg.norm(two.position[0] - two.position[1]) > 1 - 1e-4)
     True
     """
     stream = np.random.Philox(seed)
-    spheres = SoftSpheres(container, tolerance, budget_for(count))
-    position = random_centres(stream, count, container)
+    count = len(diameter)
+    spheres = SoftSpheres(diameter, room, tolerance, budget_for(count))
+    position = spheres.confine(room.random(stream, count, float(spheres.radius.min())))
     best, least, shakes = position, math.inf, 0
     while True:
         position = settle(spheres, spread(spheres, position))
@@ -96,7 +100,7 @@ def relax(count: int, container: Container, seed: int, tolerance: float) -> Rela
         if least <= tolerance or shakes == SHAKES or spheres.left <= 0:
             return Relaxed(best, least, spheres.sweeps, shakes)
         shakes += 1
-        position = confine(position + SHAKE * uniforms(stream, count), container)
+        position = spheres.confine(position + SHAKE * uniforms(stream, count))
 
 
 def budget_for(count: int) -> int:
@@ -109,10 +113,11 @@ def budget_for(count: int) -> int:
 
 
 class SoftSpheres:
-    """Overlapping spheres of diameter 1 that push each other away.
+    """Overlapping spheres that push each other away.
 
     Attributes
     ----------
+    radius : (n,) float64
     force : (n, 3) float64
         Of the last push: sum of overlap · unit vector.
     energy : float
@@ -121,14 +126,19 @@ class SoftSpheres:
         Pushes done, and left of the budget.
     """
 
-    def __init__(self, container: Container, tolerance: float, budget: int) -> None:
-        self.container = container
+    def __init__(self, diameter: Floats, room: Room, tolerance: float, budget: int) -> None:
+        self.radius = 0.5 * diameter
+        self.room = room
         self.tolerance = tolerance
         self.sweeps = 0
         self.left = budget
         self.energy = 0.0
         self.force = np.empty((0, 3))
         self._listed_at: Floats | None = None
+
+    def confine(self, position: Floats) -> Floats:
+        """Return the centres moved to where every sphere lies wholly in the room."""
+        return self.room.confine(position, self.radius)
 
     def push(self, position: Floats) -> float:
         """Compute the forces; return the largest overlap."""
@@ -139,13 +149,16 @@ class SoftSpheres:
         self.force = np.empty_like(position)
         self.sweeps += 1
         self.left -= 1
-        largest, self.energy = push(position, self._first, self._second, self.force)
+        largest, self.energy = push(position, self.radius, self._first, self._second, self.force)
         return float(largest)
 
     def _list_pairs(self, position: Floats) -> None:
         from scipy.spatial import cKDTree
 
-        pairs = cKDTree(position).query_pairs(1.0 + SKIN, output_type="ndarray")
+        pairs = cKDTree(position).query_pairs(2.0 * self.radius.max() + SKIN, output_type="ndarray")
+        way = position[pairs[:, 0]] - position[pairs[:, 1]]
+        near = squares(way) <= (self.radius[pairs].sum(axis=1) + SKIN) ** 2
+        pairs = pairs[near]
         pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
         self._first, self._second = pairs[:, 0].astype(np.int64), pairs[:, 1].astype(np.int64)
         self._listed_at = position.copy()
@@ -173,7 +186,7 @@ def spread(spheres: SoftSpheres, position: Floats) -> Floats:
     move = np.zeros_like(position)
     goal = max(SPREAD_GOAL, spheres.tolerance)
     while spheres.push(position) > goal and spheres.left > 0 and not fading.stopped(spheres.energy):
-        moved = confine(position + SPREAD_MEMORY * move + SPREAD_STEP * spheres.force, spheres.container)
+        moved = spheres.confine(position + SPREAD_MEMORY * move + SPREAD_STEP * spheres.force)
         move = moved - position
         position = moved
     return position
@@ -201,7 +214,7 @@ def settle(spheres: SoftSpheres, position: Floats) -> Floats:
         else:
             velocity = np.zeros_like(position)
             step, steering, downhill = max(0.5 * step, 0.02), 0.1, 0
-        moved = confine(position + step * (velocity + step * spheres.force), spheres.container)
+        moved = spheres.confine(position + step * (velocity + step * spheres.force))
         velocity = (moved - position) / step
         position = moved
     return position
@@ -209,5 +222,4 @@ def settle(spheres: SoftSpheres, position: Floats) -> Floats:
 
 def _moved(position: Floats, before: Floats) -> float:
     """Return the largest distance that a centre went."""
-    way = position - before
-    return math.sqrt(np.max(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2))
+    return math.sqrt(np.max(squares(position - before)))

@@ -1,9 +1,11 @@
-"""Sizes of grains: evenly spaced quantiles of a normal distribution, in random order."""
+"""Sizes of grains and primaries: evenly spaced quantiles of a distribution."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
+from clast.maths.distributions import lognormal
 
 Floats = NDArray[np.float64]
 FARTHEST = 3.0
@@ -38,6 +40,28 @@ def sizes(count: int, mean: float, deviation: float, bounds: tuple[float, float]
     low, high = ndtr((np.array([least, most]) - mean) / deviation)
     share = low + (high - low) * (np.arange(count) + 0.5) / count
     return np.asarray(mean + deviation * ndtri(share))
+
+
+def lognormal_sizes(count: int, deviation: float) -> Floats:
+    """Return ``count`` diameters in rising order, of mean 1: the middles of equally probable parts.
+
+    The logarithms have a normal distribution, cut at three deviations.
+
+    Parameters
+    ----------
+    count : int
+    deviation : float
+        Standard deviation of the diameters, above zero, before the distribution is cut.
+
+    Examples
+    --------
+    >>> [round(d, 3) for d in lognormal_sizes(3, 0.5).tolist()]
+    [0.567, 0.894, 1.41]
+    """
+    from scipy.special import ndtr
+
+    low, high = ndtr(np.array([-FARTHEST, FARTHEST]))
+    return lognormal(low + (high - low) * (np.arange(count) + 0.5) / count, deviation)
 
 
 def mean_cube(mean: float, deviation: float, bounds: tuple[float, float] | None = None) -> float:
