@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import erf, exp, log1p, pi, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -90,6 +91,30 @@ def judge_scatter(bench: Bench) -> Findings:
     yield Sketch("sizes of scattered primaries", "diameter, in that of equal ones", "share below", tuple(lines))
 
 
+SMALL = 0.1e-3
+"""Diameter of the spheres that fill a body thinly, in m."""
+
+BODIES: dict[str, tuple[dict[str, Any], tuple[float, float, float], tuple[float, float, float]]] = {
+    "box": ({"type": "random_packing", "box": [4e-3, 6e-3, 8e-3]}, (2e-3, 3e-3, 4e-3), (3.0, 3.0, 3.0)),
+    "tube": ({"type": "random_packing", "diameter": 6e-3, "height": 8e-3}, (3e-3, 3e-3, 4e-3), (4.0, 4.0, 3.0)),
+}
+"""How each body is asked for, its half lengths in m, and the square of each over the mean square of its places."""
+
+
+def judge_bodies(bench: Bench) -> Findings:
+    """Compare the second moments of thin packings with those of the bodies in which their centres have room."""
+    lines = []
+    for name, (asked, half, share) in BODIES.items():
+        thin = {"material": "glass", "primary_diameter": SMALL, "porosity": 0.99}
+        position = bench.start({"particles": asked | thin}).scene.position
+        for k, axis in enumerate("xyz"):
+            expected = (half[k] - 0.5 * SMALL) ** 2 / share[k]
+            yield Finding(f"{name}: mean square of {axis}, m2", expected, float(np.mean(position[:, k] ** 2)), 0.05)
+        below = (np.arange(len(position)) + 0.5) / len(position)
+        lines.append(Line(f"{name}: Clast", np.sort(position[:, 0]) / half[0], below))
+    yield Sketch("places of thinly packed spheres", "x, in half the length of the body", "share below", tuple(lines))
+
+
 FAMILY = Family(
     "packings",
     "Packings",
@@ -112,6 +137,14 @@ FAMILY = Family(
             "the volume of as many equal primaries; normal distribution cut at ± c: deviation "
             "√(1 − 2 c φ(c)/(2 Φ(c) − 1)) of that of the whole one (N. L. Johnson, S. Kotz, N. Balakrishnan (1994), "
             "Continuous Univariate Distributions 1, 2nd ed., § 13.10)",
+        ),
+        Case(
+            "packed_bodies",
+            "spheres fill a body evenly",
+            "packing",
+            judge_bodies,
+            "second moments of solid bodies: a²/3 for a box, a²/4 across a cylinder, with half lengths a less the "
+            "radius of a sphere",
         ),
     ),
 )

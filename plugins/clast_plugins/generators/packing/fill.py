@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -40,6 +41,11 @@ class Body(NamedTuple):
     room: Room
     whole: float
     words: str
+
+
+def body_of(room: Room, words: str) -> Body:
+    """Return a room in m as a body whose porosity refers to all of its volume."""
+    return Body(room, math.cbrt(6.0 * room.volume / math.pi), words)
 
 
 class Filled(NamedTuple):
