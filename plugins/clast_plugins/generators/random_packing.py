@@ -8,10 +8,10 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length, Point
-from clast.parts.generator import Estimate, Gaps, Generator, Packing, Prediction, Site
+from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.plugins.registry import Registry
-from clast_plugins.generators.packing.agglomerate import packing_of
-from clast_plugins.generators.packing.fill import Body, body_of, fill, near_in_number, plan
+from clast_plugins.generators.packing.agglomerate import packing_of, predict_spheres
+from clast_plugins.generators.packing.fill import Body, body_of, fill, near_in_number
 from clast_plugins.generators.packing.spheres import SpheresParams, millimetres, number_of_primaries
 from clast_plugins.generators.packing.vessels import Box, Tube
 
@@ -32,7 +32,7 @@ class RandomPacking(SpheresParams):
     ------
     Spheres are pushed apart, they do not fall: none rests on others, and at porosities above about 0.45 hardly any
     touch. Below 0.36 no random packing of equal spheres exists; in rooms of a few diameters the limit is higher.
-    They belong to no grain, so ``bonds`` never join them.
+    They belong to no grain. ``bonds.between`` joins near ones all the same, unless its ``materials`` name others.
 
     Source
     ------
@@ -72,9 +72,8 @@ def body(params: RandomPacking) -> Body:
 
 
 def predict(params: RandomPacking, site: Site, gaps: Gaps | None) -> Prediction:
-    """Return how many spheres there will be."""
-    spheres = plan(params, body(params))
-    return Prediction(len(spheres.shares), 0.5 * spheres.smallest, params.material, Estimate(0.0))
+    """Return how many spheres there will be, and about how many bonds."""
+    return predict_spheres(params, body(params), gaps)
 
 
 def generate(params: RandomPacking, site: Site) -> Packing:

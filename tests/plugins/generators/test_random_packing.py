@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import inf, pi
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clast.errors import ConfigError, PackingError
-from clast.parts.generator import Packing, Site
+from clast.parts.generator import Gaps, Packing, Site
 from clast.plugins.discovery import discover
+from clast.scene.bonding import bond_neighbours
 from clast.scene.packing_report import overlaps
 from clast.testing.kit import try_part
 from clast_plugins.generators.packing.vessels import Box, Tube
@@ -75,6 +76,17 @@ def test_places_start_uniform(room: dict) -> None:
     second = [f**2 / (3.0 if "box" in room or k == 2 else 4.0) for k, f in enumerate(free)]
     np.testing.assert_allclose((points**2).mean(axis=0), second, rtol=0.03)
     assert np.abs(points.mean(axis=0)).max() < 0.06
+
+
+@in_each
+def test_near_ones_are_counted_beforehand_where_the_scene_bonds_them(room: dict) -> None:
+    asked = params(**room, porosity=0.6, primary_deviation=0.1)
+    made, told = generate(asked, HERE), predict(asked, HERE, Gaps(-inf, 0.5)).bonds
+    assert told is not None
+    assert told.value == pytest.approx(len(bond_neighbours(made.position, made.radius, 0.5).ends), rel=told.band)
+    none = predict(asked, HERE, None).bonds
+    assert none is not None
+    assert none.value == 0.0
 
 
 def test_the_centre_only_moves_the_packing() -> None:

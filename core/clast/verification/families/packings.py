@@ -97,6 +97,11 @@ SMALL = 0.1e-3
 BODIES: dict[str, tuple[dict[str, Any], tuple[float, float, float], tuple[float, float, float]]] = {
     "box": ({"type": "random_packing", "box": [4e-3, 6e-3, 8e-3]}, (2e-3, 3e-3, 4e-3), (3.0, 3.0, 3.0)),
     "tube": ({"type": "random_packing", "diameter": 6e-3, "height": 8e-3}, (3e-3, 3e-3, 4e-3), (4.0, 4.0, 3.0)),
+    "ellipsoid": (
+        {"type": "ellipsoidal_agglomerate", "semi_axes": [5e-3, 4e-3, 3e-3]},
+        (5e-3, 4e-3, 3e-3),
+        (5.0, 5.0, 5.0),
+    ),
 }
 """How each body is asked for, its half lengths in m, and the square of each over the mean square of its places."""
 
@@ -143,8 +148,8 @@ FAMILY = Family(
             "spheres fill a body evenly",
             "packing",
             judge_bodies,
-            "second moments of solid bodies: a²/3 for a box, a²/4 across a cylinder, with half lengths a less the "
-            "radius of a sphere",
+            "second moments of solid bodies: a²/3 for a box, a²/4 across a cylinder, a²/5 for an ellipsoid, "
+            "with half lengths a less the radius of a sphere",
         ),
     ),
 )

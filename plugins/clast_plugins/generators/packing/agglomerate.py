@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -14,7 +15,7 @@ from clast_plugins.generators.packing.macro_pores import MacroPores, carve, make
 from clast_plugins.generators.packing.near_pairs import gaps_between, near_pairs, scattered
 from clast_plugins.generators.packing.pore_estimates import Bulk, pairs_left, primaries_inside
 from clast_plugins.generators.packing.room import Floats
-from clast_plugins.generators.packing.spheres import SpheresParams
+from clast_plugins.generators.packing.spheres import Spheres, SpheresParams
 
 
 class AgglomerateParams(SpheresParams):
@@ -36,21 +37,41 @@ def predict_agglomerate(params: AgglomerateParams, body: Body, gaps: Gaps | None
     PackingError
         There is no room for its pores.
     """
-    spheres = plan(params, body)
-    count, d = len(spheres.shares), spheres.primary * float(spheres.shares.mean())
-    room = body.room.per(d)
-    packed = Bulk(count, room.volume, room.surface)
-    wanted = None if gaps is None else gaps_between(gaps, d, params.primary_deviation)
-    bonds = Estimate(0.0) if wanted is None else scattered(near_pairs(*packed, wanted), params.primary_deviation)
-    radius = 0.5 * spheres.smallest
+    whole = predict_spheres(params, body, gaps)
     if params.macro_pores is None:
-        return Prediction(count, radius, params.material, bonds)
+        return whole
+    d = mean_diameter(plan(params, body))
+    room = body.room.per(d)
+    packed = Bulk(whole.particles, room.volume, room.surface)
     pores = make_voids(params.macro_pores, body.room).diameter / d
     inside = primaries_inside(packed, pores)
-    left = count - round(inside.value)
-    if wanted is not None and bonds is not None:
-        bonds = pairs_left(packed, bonds, pores, wanted)
-    return Prediction(left, radius, params.material, bonds, inside.band * inside.value / left)
+    left = whole.particles - round(inside.value)
+    bonds = whole.bonds
+    if gaps is not None and bonds is not None:
+        bonds = pairs_left(packed, bonds, pores, gaps_between(gaps, d, params.primary_deviation))
+    return replace(whole, particles=left, bonds=bonds, particles_band=inside.band * inside.value / left)
+
+
+def predict_spheres(params: SpheresParams, body: Body, gaps: Gaps | None) -> Prediction:
+    """Return what packing spheres into a body will make, with the bonds between near ones.
+
+    Raises
+    ------
+    ConfigError
+        No random packing is so dense, or the largest sphere has no room.
+    """
+    spheres = plan(params, body)
+    d = mean_diameter(spheres)
+    bonds: Estimate | None = Estimate(0.0)
+    if gaps is not None:
+        room, wanted = body.room.per(d), gaps_between(gaps, d, params.primary_deviation)
+        bonds = scattered(near_pairs(len(spheres.shares), room.volume, room.surface, wanted), params.primary_deviation)
+    return Prediction(len(spheres.shares), 0.5 * spheres.smallest, params.material, bonds)
+
+
+def mean_diameter(spheres: Spheres) -> float:
+    """Return the mean diameter in m."""
+    return spheres.primary * float(spheres.shares.mean())
 
 
 def make_agglomerate(params: AgglomerateParams, body: Body) -> Packing:
