@@ -91,7 +91,7 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str]) -> 
     ConfigError
         The file is missing, unreadable, empty, no text, or its header or a row's length is wrong.
     """
-    table = _split(path, _lines(path, ",".join(required)))
+    table = _split(path, text_lines(path, f"a CSV file with the header '{','.join(required)}'"))
     _check_header(table, required, optional)
     for line, row in table.rows:
         if "" in row.values() or len(row) != len(table.columns):
@@ -102,7 +102,14 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str]) -> 
     return table
 
 
-def _lines(path: Path, header: str) -> list[str]:
+def text_lines(path: Path, needed: str) -> list[str]:
+    """Return the lines of a text file; ``needed`` says in messages what it should be.
+
+    Raises
+    ------
+    ConfigError
+        The file is missing, unreadable, empty or no text.
+    """
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
@@ -110,13 +117,11 @@ def _lines(path: Path, header: str) -> list[str]:
         hint = f" ({suggestion(path.name, beside)})" if 0 < len(beside) < 50 else ""
         raise ConfigError(f"{path}: there is no such file{hint}; check the path") from None
     except UnicodeDecodeError as error:
-        raise ConfigError(
-            f"{path}: not a text file (byte {error.start} is no UTF-8); a CSV file with the header '{header}' is needed"
-        ) from None
+        raise ConfigError(f"{path}: not a text file (byte {error.start} is no UTF-8); {needed} is needed") from None
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from None
     if not text.strip():
-        raise ConfigError(f"{path}: the file is empty; a CSV file with the header '{header}' is needed")
+        raise ConfigError(f"{path}: the file is empty; {needed} is needed")
     return text.splitlines()
 
 

@@ -1,14 +1,14 @@
-"""From file: particles and bonds read from CSV tables."""
+"""From file: particles and bonds read from CSV tables, from a data file of LAMMPS, or from a VTKHDF file."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.errors import about
@@ -17,6 +17,12 @@ from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.generators.csv_table import Table, distinct, read_table
 from clast_plugins.generators.grains import connected_grains
+from clast_plugins.generators.lammps_data import read_lammps
+from clast_plugins.generators.particle_table import ParticleTable
+from clast_plugins.generators.vtkhdf_points import read_vtkhdf
+
+READERS = {".data": read_lammps, ".vtkhdf": read_vtkhdf}
+"""How files are read, by the end of their name; all others are CSV."""
 
 
 class FromFile(Params):
@@ -26,24 +32,35 @@ class FromFile(Params):
     no initial length is given it is the distance of the centres. Particles start at rest.
 
     With a file of bonds, particles that bonds connect form a grain; without one, all particles are one grain.
+
+    Files that end in ``.data`` are read as data files of LAMMPS in units ``si`` (atom style ``bpm/sphere`` or
+    ``sphere``), in ``.vtkhdf`` as files of VTK, the last time in them: both as ``clast export`` writes them. They hold
+    their bonds, as thick as the smaller particle and undeformed, and where they tell grains, these. Clast exports
+    places in single precision: surfaces that touched may overlap by 1e-7 of their distance from the origin.
     """
 
-    particles: Annotated[str, Field(min_length=1, description="CSV file with id,x,y,z,radius[,material] in m")]
+    particles: Annotated[
+        str,
+        Field(min_length=1, description="CSV file with id,x,y,z,radius[,material] in m; or one of LAMMPS or of VTK"),
+    ]
     bonds: Annotated[
         str | None,
         Field(min_length=1, description="CSV file with i,j,diameter[,initial_length] in m; none: no bonds"),
     ] = None
     material: Annotated[str | None, Field(description="Material of particles whose row names none")] = None
+    materials: Annotated[
+        list[str] | None,
+        Field(description="Names of the types 1, 2, … of LAMMPS or the materials 0, 1, … of VTK, in this order"),
+    ] = None
 
-
-class ParticleTable(NamedTuple):
-    """Particles as read: lines in the file, ids, ``(n, 3)`` centres and ``(n,)`` radii in m, materials."""
-
-    lines: list[int]
-    ids: list[int]
-    position: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    material: list[str]
+    @model_validator(mode="after")
+    def _where_bonds_and_materials_are(self) -> FromFile:
+        reader = READERS.get(Path(self.particles).suffix)
+        if reader is None and self.materials is not None:
+            raise ValueError("'materials' names the numbers of LAMMPS and VTK; a CSV file has a column 'material'")
+        if reader is not None and self.bonds is not None:
+            raise ValueError(f"{self.particles} holds its bonds itself; leave 'bonds' out")
+        return self
 
 
 def read_particles(path: Path, material: str | None) -> ParticleTable:
@@ -72,7 +89,8 @@ def read_particles(path: Path, material: str | None) -> ParticleTable:
         materials.append(name or "")
     table.refuse_problems()
     found = np.array(measures)
-    return ParticleTable([line for line, _ in table.rows], ids, found[:, :3].copy(), found[:, 3].copy(), materials)
+    lines = [line for line, _ in table.rows]
+    return ParticleTable(ids, found[:, :3].copy(), found[:, 3].copy(), materials, lambda k: f"{path}:{lines[k]}")
 
 
 def read_bonds(path: Path, particles: ParticleTable) -> BondList:
@@ -112,15 +130,20 @@ def _end(table: Table, line: int, row: dict[str, str], column: str, index: dict[
 
 
 def read(params: FromFile, site: Site) -> tuple[ParticleTable, BondList | None]:
-    """Read both tables.
+    """Read particles and bonds.
 
     Raises
     ------
     ConfigError
-        Anything wrong with either file.
+        Anything wrong with a file.
     """
+    path = site.folder / params.particles
+    reader = READERS.get(path.suffix)
+    if reader is not None:
+        with about("particles"):
+            return reader(path, params.material, params.materials)
     with about("particles"):
-        particles = read_particles(site.folder / params.particles, params.material)
+        particles = read_particles(path, params.material)
     if params.bonds is None:
         return particles, None
     with about("bonds"):
@@ -133,10 +156,10 @@ def generate(params: FromFile, site: Site) -> Packing:
     Raises
     ------
     ConfigError
-        Anything wrong with either file.
+        Anything wrong with a file.
     """
     particles, bonds = read(params, site)
-    count, lines = len(particles.ids), particles.lines
+    count = len(particles.ids)
     return Packing(
         position=particles.position,
         radius=particles.radius,
@@ -144,7 +167,7 @@ def generate(params: FromFile, site: Site) -> Packing:
         velocity=np.zeros((count, 3)),
         spin=np.zeros((count, 3)),
         prescribed=np.zeros(count, np.bool_),
-        grain=np.zeros(count, np.int64) if bonds is None else connected_grains(count, bonds.ends),
+        grain=_grains(particles, bonds),
         bonds=bonds,
         report={
             "particles": count,
@@ -152,8 +175,15 @@ def generate(params: FromFile, site: Site) -> Packing:
             "particles_file": params.particles,
             **({} if params.bonds is None else {"bonds_file": params.bonds}),
         },
-        origin=lambda k: f"{site.folder / params.particles}:{lines[k]}",
+        origin=particles.origin,
     )
+
+
+def _grains(particles: ParticleTable, bonds: BondList | None) -> NDArray[np.int64]:
+    if particles.grain is not None:
+        return particles.grain
+    count = len(particles.ids)
+    return np.zeros(count, np.int64) if bonds is None else connected_grains(count, bonds.ends)
 
 
 @hookimpl
@@ -162,7 +192,7 @@ def clast_register(registry: Registry) -> None:
     registry.generator(
         "from_file",
         Generator(
-            summary="particles and bonds read from CSV tables",
+            summary="particles and bonds read from CSV tables, or from files of LAMMPS or VTK",
             Params=FromFile,
             generate=generate,
         ),
