@@ -50,7 +50,10 @@ class FromFile(Params):
     material: Annotated[str | None, Field(description="Material of particles whose row names none")] = None
     materials: Annotated[
         list[str] | None,
-        Field(description="Names of the types 1, 2, … of LAMMPS or the materials 0, 1, … of VTK, in this order"),
+        Field(
+            min_length=1,
+            description="Names of the types 1, 2, … of LAMMPS or the materials 0, 1, … of VTK, in this order",
+        ),
     ] = None
 
     @model_validator(mode="after")
