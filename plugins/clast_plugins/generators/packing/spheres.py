@@ -151,7 +151,7 @@ def number_of_primaries(params: SpheresParams, whole: float) -> int:
     if not 1.0 <= exact <= MOST_PRIMARIES:
         raise ValueError(
             f"porosity {params.porosity:g} makes {math.floor(min(exact, 1e18))} primaries of "
-            f"{millimetres(primary)} in {millimetres(whole)}; "
+            f"{millimetres(primary)} in the volume of a sphere of {millimetres(whole)}; "
             f"1 to {MOST_PRIMARIES} are allowed: check the diameters and their units"
         )
     # 0.5 · 2³ must give 4 however the diameters round
