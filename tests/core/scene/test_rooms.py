@@ -55,15 +55,21 @@ def test_more_than_fits_is_refused_by_a_run_as_by_a_check(change: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "sentence"),
+    ("changes", "sentence"),
     [
-        ("walls.tube.radius=8 mm", "no wall stands at its side: the nearest is 1 mm from"),
-        ("walls.bottom.radius=5 mm", "no wall stands at its bottom: the nearest is "),
-        ("walls.bottom.point=[0, 0, -1 mm]", "no wall stands at its bottom: the nearest is 1 mm from"),
+        (
+            ("walls.tube.radius=8 mm", "compression.diameter=16 mm"),
+            "no wall stands at its side: the nearest is 1 mm from",
+        ),
+        (("walls.bottom.radius=5 mm",), "no wall stands at its bottom: the nearest is "),
+        (
+            ("walls.bottom.point=[0, 0, -1 mm]", "compression.height=9.4 mm"),
+            "no wall stands at its bottom: the nearest is 1 mm from",
+        ),
     ],
 )
-def test_a_face_without_a_wall_is_told_by_a_check(change: str, sentence: str) -> None:
-    (concern,) = forecast(small(change)).concerns
+def test_a_face_without_a_wall_is_told_by_a_check(changes: tuple[str, ...], sentence: str) -> None:
+    (concern,) = forecast(small(*changes)).concerns
     assert "oedometer_small.yaml" in concern
     assert "particles: fills a tube 14 mm wide" in concern
     assert sentence in concern
