@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -63,11 +63,11 @@ def _check_part(entry: Registered, changes: Mapping[str, Any], speed: bool, cons
         if console:
             console.print(f"  [red]not tried[/]  {escape(str(error))}")
         return {"kind": entry.kind, "name": entry.name, "passed": False, "problem": str(error), "claims": []}
-    outcomes = []
-    for each in claims_of(entry, params):
-        outcomes += try_claims([each])
+    outcomes: list[Outcome] = []
+    for outcome in try_claims(claims_of(entry, params)):
         if console:
-            _print(console, outcomes[-1])
+            _print(console, outcome, {each.problem for each in outcomes})
+        outcomes.append(outcome)
     passed = all(outcome.passed for outcome in outcomes)
     costs = _costs(entry, params, console) if speed and passed and entry.kind in BESIDE else []
     return {
@@ -80,10 +80,10 @@ def _check_part(entry: Registered, changes: Mapping[str, Any], speed: bool, cons
     }
 
 
-def _print(console: Console, outcome: Outcome) -> None:
+def _print(console: Console, outcome: Outcome, before: Collection[str]) -> None:
     console.print(f"  [green]passed[/]  {outcome.says}" if outcome.passed else f"  [red]FAILED[/]  {outcome.says}")
     if outcome.problem:
-        console.print(f"          {escape(outcome.problem)}")
+        console.print(f"          {'as above' if outcome.problem in before else escape(outcome.problem)}")
 
 
 def _costs(entry: Registered, params: Params, console: Console | None) -> list[Cost]:

@@ -159,10 +159,20 @@ def destruct(record: type, variable: str) -> list[str]:
 def columns(record: Any, count: int) -> NDArray[np.float64]:
     """Return the (count, width) table of a record whose fields are numbers, vectors, or arrays of them."""
     table = [
-        np.broadcast_to(np.asarray(value, np.float64).reshape(-1, field.size), (count, field.size))
+        _column(value, field, count, type(record))
         for field, value in zip(fields(type(record)), leaves(record), strict=True)
     ]
     return np.concatenate(table, axis=1) if table else np.zeros((count, 0))
+
+
+def _column(value: Any, field: Field, count: int, record: type) -> NDArray[np.float64]:
+    rows = np.asarray(value, np.float64).reshape(-1, field.size)
+    if len(rows) not in (1, count):
+        raise PluginError(
+            f"{record.__module__}.{record.__qualname__}.{field.name} has {len(rows)} entries; {count} are needed, one "
+            "each, or one for all"
+        )
+    return np.broadcast_to(rows, (count, field.size))
 
 
 def from_columns(record: type, table: NDArray[np.float64]) -> Any:

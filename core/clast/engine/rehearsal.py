@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.records import build, columns, fields, leaves, width
+from clast.engine.records import build, columns, fields, is_record, leaves, members, width
 from clast.errors import PluginError
 from clast.maths.rotation import IDENTITY
 from clast.maths.vec3 import ZERO
@@ -22,6 +22,7 @@ from clast.scene.scene import Scene
 
 STRETCH = 1e-6
 Caller = Callable[..., Any]
+NUMBERS = (int, float, np.floating, np.integer, np.bool_)
 
 
 class Rehearsal:
@@ -154,12 +155,29 @@ def _longest(values: Any) -> int:
 
 
 def _expect(function: Callable[..., Any], value: Any, result: type | None) -> None:
-    numbers = (int, float, np.floating, np.integer, np.bool_)
-    good = isinstance(value, numbers) if result in (int, float) else result is None or isinstance(value, result)
+    good = isinstance(value, NUMBERS) if result in (int, float) else result is None or isinstance(value, result)
     if not good:
         raise PluginError(f"{_where(function)}: {function.__name__} must return {_name(result)}, given {value!r}")
+    wrong = _misshapen(value, type(value)) if is_record(type(value)) else ""
+    if wrong:
+        raise PluginError(f"{_where(function)}: {function.__name__}: {wrong}")
     if not all(np.isfinite(number) for number in _numbers(value)):
         raise PluginError(f"{_where(function)}: {function.__name__} must return finite numbers, given {value!r}")
+
+
+def _misshapen(value: Any, record: type) -> str:
+    """Return what of a record is not as large as it is declared; empty where all is right."""
+    for (name, member), inner in zip(members(record).items(), value, strict=True):
+        if not isinstance(member, int):
+            wrong = _misshapen(inner, member) if isinstance(inner, member) else f"'{name}' must be a {member.__name__}"
+        elif member == 1:
+            wrong = "" if isinstance(inner, NUMBERS) else f"'{name}' must be a number, given {inner!r}"
+        else:
+            good = isinstance(inner, tuple) and len(inner) == member
+            wrong = "" if good else f"'{name}' must be a tuple of {member} numbers, given {inner!r}"
+        if wrong:
+            return wrong
+    return ""
 
 
 def _numbers(value: Any) -> Iterator[float]:

@@ -44,10 +44,10 @@ def example(model: type[P], changes: Mapping[str, Any] | None = None) -> P:
     given = stated(model) | dict(changes or {})
     missing = [name for name, field in model.model_fields.items() if field.is_required() and name not in given]
     if missing:
-        first = missing[0]
+        named = ", ".join(f"{model.__name__}.{name}" for name in missing)
         raise PluginError(
-            f"{model.__name__}.{first} has no example to try it with; declare it with 'Field(examples=[...])', or set "
-            f"it by hand with '--set {first}=...'"
+            f"there is no example to try it with: {named}; declare 'Field(examples=[...])', or give values to 'clast "
+            f"plugins check' with --set PART.{missing[0]}=..."
         )
     try:
         return model.model_validate(given)

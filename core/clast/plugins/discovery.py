@@ -23,7 +23,7 @@ import pluggy
 from clast.errors import PluginError, one_line
 from clast.plugins import hookspec
 from clast.plugins.blame import FILE_MODULE, GROUP, OWN_DISTRIBUTION, line_in
-from clast.plugins.nearest import suggestion
+from clast.plugins.nearest import nearest_name, suggestion
 from clast.plugins.registry import Failure, NameTakenError, Registered, Registry, Source
 
 CHOICE = "CLAST_PLUGINS"
@@ -68,10 +68,14 @@ def parts_of(what: str | Path) -> list[Registered]:
         return [entry for entry in registry if entry.source.origin == path]
     registry, name = discover(), str(what)
     found = [each for each in registry if name in (each.name, each.source.plugin, each.source.origin)]
+    broken = [each for each in registry.failures if name in (each.source.plugin, each.source.origin)]
+    if broken:
+        raise PluginError(str(broken[0]))
     if not found:
         known = {text for each in registry for text in (each.name, each.source.plugin)}
-        problems = "".join(f"\n  {failure}" for failure in registry.failures)
-        raise PluginError(f"no part or plugin is named {name!r}; {suggestion(name, known)}{problems}")
+        near = nearest_name(name, known)
+        hint = f"did you mean {near!r}?" if near else "'clast plugins' lists all; a file ends with .py"
+        raise PluginError(f"no part or plugin is named {name!r}; {hint}")
     return found
 
 
@@ -183,6 +187,10 @@ def _check_api(plugin: Any) -> None:
     stated = getattr(plugin, "CLAST_API", None)
     if stated == hookspec.API_VERSION:
         return
+    if stated is not None and not isinstance(stated, int):
+        raise PluginError(
+            f"states CLAST_API = {stated!r}; a whole number is needed: CLAST_API = {hookspec.API_VERSION}"
+        )
     if stated is None:
         raise PluginError(f"does not state its API; add 'CLAST_API = {hookspec.API_VERSION}' to the plugin")
     raise PluginError(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from importlib.resources import files
+from keyword import iskeyword
 from pathlib import Path
 
 from clast.errors import PluginError
+from clast.plugins.discovery import discover
 from clast.plugins.registry import NAME, NAME_RULE
 
 STARTER = "starter"
@@ -24,8 +26,8 @@ def starter_text(kind: str, name: str) -> str:
     >>> print(starter_text("wall", "my_floor").splitlines()[0])
     \"\"\"My floor: a half-space below a level.\"\"\"
     """
-    if not NAME.fullmatch(name):
-        raise PluginError(f"{name!r} is not a name for a {kind.replace('_', ' ')}: {NAME_RULE}")
+    if not NAME.fullmatch(name) or iskeyword(name):
+        raise PluginError(f"{name!r} is not a name for a {kind.replace('_', ' ')}: {NAME_RULE}, no word of Python")
     text = files("clast.plugins.starters").joinpath(f"{kind}.py").read_text(encoding="utf-8")
     text = text.replace("Starter:", f"{name.replace('_', ' ').capitalize()}:", 1)
     camel = "".join(word.capitalize() for word in name.split("_"))
@@ -38,9 +40,11 @@ def write_starter(kind: str, name: str, path: Path) -> Path:
     Raises
     ------
     PluginError
-        The name is badly spelt, or the file is there.
+        The name is badly spelt or taken, or the file is there.
     """
     text = starter_text(kind, name)
+    if name in discover().names(kind):
+        raise PluginError(f"there is a {kind.replace('_', ' ')} named {name!r} already; take another name")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("x", encoding="utf-8") as file:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,11 +12,12 @@ from clast.maths.rotation import IDENTITY, Quat
 from clast.maths.vec3 import ZERO, Vec, add, cross, norm, scale, sub
 from clast.parts.bond_kinematics import BondKinematics, BondMotion
 from clast.parts.bond_model import BondLoad, Strain
+from clast.testing.bits import same_bits
 from clast.testing.claim import Claim, claim, must
 from clast.testing.draws import directions, numbers, rotate, rotation, vectors
 
 LENGTH = 1.3
-STEPS = 400
+STEPS, ROWS = 400, 300
 LARGEST = 1.2
 """Angle in rad by which the ends turn against each other at most."""
 
@@ -49,6 +51,7 @@ def claims(kinematics: BondKinematics, params: Any) -> list[Claim]:
             angle,
             vectors(1.0),
         ),
+        claim("compiled code gives the same bits as plain Python", lambda: _compiled_alike(kinematics)),
     ]
 
 
@@ -132,3 +135,39 @@ def _balanced(kinematics: BondKinematics, n: Vec, shift: Vec, axis: Vec, turn: f
     left = add(add(ends.moment_i, ends.moment_j), cross(d, ends.force))
     size = norm(ends.moment_i) + norm(ends.moment_j) + norm(ends.force) * norm(d)
     must(norm(left) <= 1e-9 * size + 1e-12, lambda: f"{ends} at d = {d} turn the bond with {left}")
+
+
+def _compiled_alike(kinematics: BondKinematics) -> None:
+    """Compare strains and loads of the ends along a random way, compiled and in plain Python."""
+    start, L0 = np.array([[LENGTH, 0.0, 0.0]]), np.array([LENGTH])
+    reference = _first(kinematics.Reference, kinematics.reference(start, L0))
+    state = _first(kinematics.State, kinematics.start(start, L0)) if kinematics.start else _zeros(kinematics.State)
+    draw = np.random.default_rng(9)
+    ways = np.cumsum(0.01 * draw.normal(size=(ROWS, 9)), axis=0)
+    turns = np.array([[*_turned(tuple(w[3:6]), 1.0), *_turned(tuple(w[6:9]), 1.0)] for w in ways])
+    sweep, functions = _sweep(kinematics, state)
+    same_bits(sweep, functions, (ROWS, 17), ways, turns, reference)
+
+
+def _sweep(kinematics: BondKinematics, first: Any) -> tuple[Callable[..., None], list[Callable[..., Any]]]:
+    """Return a loop that takes a bond along a way, and the functions that it calls."""
+    measure, end_loads = kinematics.measure, kinematics.end_loads
+
+    def sweep(ways: Any, turns: Any, reference: Any, out: Any) -> None:
+        state = first
+        for k in range(len(ways)):
+            a, q = ways[k], turns[k]
+            motion = BondMotion(
+                (LENGTH + a[0], a[1], a[2]), (q[0], q[1], q[2], q[3]), (q[4], q[5], q[6], q[7]),
+                (a[0], a[1], a[2]), (a[3], a[4], a[5]), (a[6], a[7], a[8]),
+            )  # fmt: skip
+            strain, frame, state = measure(motion, reference, state, 0.01)
+            out[k, 0], out[k, 4] = strain.axial, strain.twist
+            out[k, 1], out[k, 2], out[k, 3] = strain.shear
+            out[k, 5], out[k, 6], out[k, 7] = strain.bending
+            ends = end_loads(BondLoad(strain.axial, strain.shear, strain.twist, strain.bending), frame)
+            out[k, 8], out[k, 9], out[k, 10] = ends.force
+            out[k, 11], out[k, 12], out[k, 13] = ends.moment_i
+            out[k, 14], out[k, 15], out[k, 16] = ends.moment_j
+
+    return sweep, [measure, end_loads]

@@ -11,11 +11,13 @@ import numpy as np
 from hypothesis import strategies as st
 
 from clast.engine.records import numbers
+from clast.engine.rehearsal import Rehearsal
 from clast.maths.vec3 import Vec
 from clast.parts.bond_model import BondLoad, BondModel, Dashpots, RandomKey, Strain
 from clast.testing.bond_bits import compiled_alike
 from clast.testing.bonds import (
     GEOMETRY,
+    KEY,
     L0,
     NOTHING,
     SIZES,
@@ -26,9 +28,11 @@ from clast.testing.bonds import (
     follow,
     from_flat,
     paths,
+    pulled,
     ramp,
     scaled,
     strains,
+    stretched,
     turned_about_axis,
 )
 from clast.testing.claim import Claim, claim, must
@@ -44,6 +48,7 @@ def claims(model: BondModel, params: Any) -> list[Claim]:
     far = 2.0 * law.size
     drawn = paths(far)
     return [
+        claim("every function gives what it is asked for", lambda: _answers(law)).needed(),
         claim("an undeformed bond carries nothing, stores nothing and is far from breaking", lambda: _rests(law)),
         claim("energy is never negative, and every answer is a number", lambda path: _sound(law, path), drawn),
         claim("loads are the derivatives of the energy at a fixed state", lambda path: _gradient(law, path), drawn),
@@ -57,8 +62,9 @@ def claims(model: BondModel, params: Any) -> list[Claim]:
             floats(0.0, 6.0),
         ),
         claim("the failure index grows from 0 to 1 without a jump", lambda end: _no_jump(law, end), strains(far)),
+        claim("a bond that is pulled breaks, or its failure index stays 0", lambda: _breaks(law)),
         claim("a broken bond has one of the modes told", lambda end: _mode(law, end), strains(3.0 * far)),
-        claim("no closed path gives energy", lambda path: _no_engine(law, path), paths(law.size)),
+        claim("no closed path gives energy", lambda path: _no_engine(law, path), paths(0.5 * law.size)),
         *_claims_of_options(law, drawn),
         claim("compiled code gives the same bits as plain Python", lambda: compiled_alike(law)),
     ]
@@ -74,6 +80,27 @@ def _claims_of_options(law: Bond, drawn: st.SearchStrategy[list[Strain]]) -> lis
     if law.model.dashpots is not None:
         found.append(claim("dashpots take energy and never give it", lambda: _dashpots_resist(law)))
     return found
+
+
+def _answers(law: Bond) -> None:
+    model, c, at = law.model, law.constants, stretched(0.01 * law.size)
+    call = Rehearsal().call
+    state = law.start if model.flow is None else call(model.flow, model.State, at, c, law.start)
+    load = call(model.load, BondLoad, at, c, state)
+    call(model.failure, float, at, load, c, state)
+    call(model.mode, int, at, load, c, state)
+    call(model.energy, float, at, c, state)
+    if model.overload is not None and model.on_event is not None:
+        call(model.overload, float, at, c, state)
+        call(model.on_event, model.State, at, c, state, KEY)
+
+
+def _breaks(law: Bond) -> None:
+    largest = max(told.failure for told in pulled(law))
+    must(
+        largest == 0.0 or largest >= 1.0,
+        f"'failure' comes to {largest:g} and never to 1, though the bond is pulled to twice its length",
+    )
 
 
 def _rests(law: Bond) -> None:

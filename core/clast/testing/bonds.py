@@ -26,7 +26,7 @@ MOST_EVENTS = 10_000
 class Bond(NamedTuple):
     """A model with parameters, the numbers of one bond, the state it starts in.
 
-    ``size`` is the axial strain of about its first break, flow or event; 0.01 where there is none.
+    ``size`` is the axial strain at which it breaks when it is pulled; 0.01 where it never does.
     """
 
     model: BondModel
@@ -50,7 +50,7 @@ def bond(model: BondModel, params: Any) -> Bond:
     start = None if model.State is None else build(model.State, [0.0] * width(model.State))
     made = Bond(model, params, model.constants(params, GEOMETRY), start)
     try:
-        return made._replace(size=_first_event(made))
+        return made._replace(size=_breaks_at(made))
     except Exception:  # the claims will meet it too, and tell it
         return made
 
@@ -95,14 +95,19 @@ def ramp(begin: Strain, end: Strain, steps: int) -> list[Strain]:
 
 
 def strains(size: float) -> st.SearchStrategy[Strain]:
-    """Draw strains of which each measure alone strains some fibre of the bond by up to ``size``."""
+    """Draw strains, small ones and such of which each measure alone strains some fibre of the bond by ``size``."""
     angle = size * L0 / R
-    return st.builds(Strain, numbers(-size * L0, size * L0), vectors(size * L0), numbers(-angle, angle), vectors(angle))
+    whole = st.builds(
+        Strain, numbers(-size * L0, size * L0), vectors(size * L0), numbers(-angle, angle), vectors(angle)
+    )
+    return st.builds(scaled, whole, st.sampled_from((1.0, 0.5, 0.2, 0.05, 0.01)))
 
 
 def paths(size: float) -> st.SearchStrategy[list[Strain]]:
-    """Draw a few strains, one after the other."""
-    return st.lists(strains(size), min_size=1, max_size=5)
+    """Draw a few strains, one after the other, or one along the axis or across it."""
+    shares = (0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.49, 0.6, 0.8, 1.0)
+    straight = [[stretched(s * size)] for s in shares] + [[stretched(0.0, s * size)] for s in shares]
+    return st.one_of(st.lists(strains(size), min_size=1, max_size=5), st.sampled_from(straight))
 
 
 def flat(record: Strain | BondLoad) -> list[float]:
@@ -125,15 +130,21 @@ def stretched(epsilon: float, gamma: float = 0.0) -> Strain:
     return NOTHING._replace(axial=epsilon * L0, shear=(0.0, gamma * L0, 0.0))
 
 
-def _first_event(bond: Bond) -> float:
-    """Return the axial strain at which a bond that is pulled breaks, flows or has an event; 0.01 if below 1 none."""
-    epsilon = 1e-6
-    while epsilon < 1.0:
-        told = answer(bond, stretched(epsilon), bond.start)
-        if told.failure >= 1.0 or told.state != bond.start:
-            return epsilon
-        epsilon *= 1.1
-    return 0.01
+def pulled(bond: Bond) -> list[Answer]:
+    """Return the answers of a bond that is pulled further and further, until it breaks or is twice as long."""
+    told: list[Answer] = []
+    state, epsilon = bond.start, 1e-6
+    while epsilon < 1.0 and not (told and told[-1].failure >= 1.0):
+        told.append(answer(bond, stretched(epsilon), state))
+        state = told[-1].state
+        epsilon *= 1.02
+    return told
+
+
+def _breaks_at(bond: Bond) -> float:
+    """Return the axial strain at which a bond that is pulled breaks; 0.01 where it never does."""
+    last = pulled(bond)[-1]
+    return last.strain.axial / L0 if last.failure >= 1.0 else 0.01
 
 
 def turned_about_axis(a: Vec, angle: float) -> Vec:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import clast
-from clast.errors import one_line
+from clast.errors import PluginError, one_line
 
 OWN = Path(clast.__file__).resolve().parent
 EXAMPLES = 60
@@ -45,6 +45,12 @@ class Claim:
 
     says: str
     check: Callable[[], None]
+    is_needed: bool = False
+    """Whether those after it make no sense where it does not hold."""
+
+    def needed(self) -> Claim:
+        """Return the same claim, without which those after it make no sense."""
+        return replace(self, is_needed=True)
 
 
 @dataclass(frozen=True)
@@ -65,15 +71,19 @@ def claim(says: str, check: Callable[..., None], *drawn: st.SearchStrategy[Any])
     return Claim(says, TRIED(given(*drawn)(check)) if drawn else check)
 
 
-def try_claims(claims: Sequence[Claim]) -> list[Outcome]:
-    """Try claims one by one, whatever becomes of those before."""
-    return [Outcome(each.says, _problem(each)) for each in claims]
+def try_claims(claims: Sequence[Claim]) -> Iterator[Outcome]:
+    """Try claims one by one, whatever becomes of those before, but for those that are needed."""
+    for each in claims:
+        told = Outcome(each.says, _problem(each))
+        yield told
+        if each.is_needed and not told.passed:
+            return
 
 
 def _problem(tried: Claim) -> str:
     try:
         tried.check()
-    except BrokenError as broken:
+    except (BrokenError, PluginError) as broken:
         return str(broken)
     except Exception as error:  # what a part raises is told in its own words
         return f"{place(error)}raised {one_line(error)}"

@@ -31,7 +31,7 @@ def try_part(entry: Registered, changes: Mapping[str, Any] | None = None) -> lis
     PluginError
         A parameter has neither an example nor a default.
     """
-    return try_claims(claims_of(entry, example(entry.part.Params, changes)))
+    return list(try_claims(claims_of(entry, example(entry.part.Params, changes))))
 
 
 def assert_contract(file: str | Path, changes: Mapping[str, Mapping[str, Any]] | None = None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -38,13 +39,44 @@ def test_each_way_to_spoil_a_part_breaks_its_claim(kind: str, claim: str, old: s
     assert outcome.problem
 
 
+@pytest.mark.parametrize(
+    ("claim", "old", "new"),
+    [
+        ("a bond that is pulled breaks", "return state.largest / c.eps_f", "return min(state.largest / c.eps_f, 0.9)"),
+        ("no loading is stiffer", "kept = max(c.eps_0 *", "kept = max((50.0 if peak > 2e-3 else 1.0) * c.eps_0 *"),
+        ("loads are the", "return beam_energy(strain, load(strain, c, state))", "return c.axial * strain.axial**2"),
+    ],
+)  # fmt: skip
+def test_a_law_whose_state_grows_from_the_first_strain_is_tried_up_to_where_it_breaks(
+    claim: str, old: str, new: str, tmp_path: Path
+) -> None:
+    text = (Path(__file__).parents[3] / "docs" / "examples" / "my_law.py").read_text()
+    assert old in text
+    (tmp_path / "spoiled.py").write_text(text.replace(old, new))
+    entry = next(each for each in parts_of(tmp_path / "spoiled.py") if each.kind == "bond_model")
+    claims = [each for each in claims_of(entry, example(entry.part.Params)) if each.says.startswith(claim)]
+    (outcome,) = try_claims(claims)
+    assert not outcome.passed
+
+
+def test_a_record_of_the_wrong_shape_is_told_once_with_its_file(tmp_path: Path) -> None:
+    text = starter_text("bond_model", "spoiled").replace("shear=scale(c.shear, strain.shear)", "shear=c.shear")
+    (tmp_path / "spoiled.py").write_text(text)
+    with pytest.raises(AssertionError) as told:
+        assert_contract(tmp_path / "spoiled.py")
+    assert len(str(told.value).splitlines()) == 1
+    assert re.search(r"spoiled.py:\d+: load: 'shear' must be a tuple of 3 numbers, given", str(told.value))
+
+
 def test_what_a_law_raises_is_told_with_its_file_and_line(tmp_path: Path) -> None:
     text = starter_text("bond_model", "spoiled").replace(
         "    return max(strain.axial", "    oops()\n    return max(strain.axial"
     )
     (tmp_path / "spoiled.py").write_text(text)
     line = text[: text.index("    oops()")].count("\n") + 1
-    with pytest.raises(AssertionError, match=rf"spoiled.py:{line}: raised NameError: name 'oops' is not defined"):
+    with pytest.raises(
+        AssertionError, match=rf"spoiled.py:{line}: failure raised NameError: name 'oops' is not defined"
+    ):
         assert_contract(tmp_path / "spoiled.py")
 
 
