@@ -75,22 +75,31 @@ def main() -> None:
     help="Threads that may share the steps of a large scene; results do not depend on them.",
 )
 @click.option("--resume", is_flag=True, help="Go on where the run in the folder stopped.")
-def run(file: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, resume: bool) -> None:
+@plugin_option
+def run(
+    file: Path,
+    output: Path | None,
+    overrides: tuple[str, ...],
+    threads: int | None,
+    resume: bool,
+    files: tuple[Path, ...],
+) -> None:
     """Run the scene in FILE."""
     from clast.commands import run as run_command
 
-    run_command.run(file, output=output, overrides=overrides, threads=threads, resume=resume)
+    run_command.run(file, output=output, overrides=overrides, threads=threads, resume=resume, plugins=files)
 
 
 @main.command()
 @_file
 @change_option
 @click.option("--build", is_flag=True, help="Pack the particles and tell the exact numbers.")
-def check(file: Path, overrides: tuple[str, ...], build: bool) -> None:
+@plugin_option
+def check(file: Path, overrides: tuple[str, ...], build: bool, files: tuple[Path, ...]) -> None:
     """Validate FILE and tell what running it will cost."""
     from clast.config.scene import load
 
-    scene = load(file, overrides)
+    scene = load(file, overrides, files)
     if build:
         from clast.commands import build_report
 

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -35,6 +36,17 @@ def test_parts_are_listed_and_shown():
     result = invoke("plugins", "show", "micro_craking")
     assert result.exit_code == 2
     assert "did you mean 'micro_cracking'?" in result.stderr
+
+
+def test_a_plugin_of_the_command_line_is_beside_those_of_the_scene(tmp_path):
+    examples = Path(__file__).parents[2] / "docs" / "examples"
+    scene = (examples / "my_law.yaml").read_text()
+    (tmp_path / "scene.yaml").write_text(scene[: scene.index("plugins:")] + scene[scene.index("materials:") :])
+    result = invoke("check", tmp_path / "scene.yaml")
+    assert result.exit_code == 2
+    assert "no bond model is named 'softening'" in result.stderr
+    result = invoke("check", tmp_path / "scene.yaml", "--plugin", examples / "my_law.py")
+    assert result.exit_code == 0, result.output
 
 
 def test_the_schema_is_json():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from clast.commands.live_bar import LiveBar
@@ -26,6 +26,7 @@ def run(
     overrides: Iterable[str] = (),
     threads: int | None = None,
     resume: bool = False,
+    plugins: Sequence[str | Path] = (),
 ) -> None:
     """Run a scene file and print what came out.
 
@@ -34,7 +35,7 @@ def run(
     ClastError
         With a message for the user.
     """
-    config = load(file, overrides)
+    config = load(file, overrides, plugins)
     folder = output if output is not None else default_folder(config, resume)
     with console_listener(config) as listener:
         outcome = run_scene(config, folder, resume, listener, threads)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
@@ -192,7 +192,7 @@ class SceneConfig(Params):
         return build(document)
 
 
-def load(path: str | Path, overrides: Iterable[str] = ()) -> SceneConfig:
+def load(path: str | Path, overrides: Iterable[str] = (), plugins: Sequence[str | Path] = ()) -> SceneConfig:
     """Read and validate a scene file.
 
     Parameters
@@ -201,13 +201,20 @@ def load(path: str | Path, overrides: Iterable[str] = ()) -> SceneConfig:
         A YAML file.
     overrides : iterable of str
         ``key.path=value`` each, laid over the file before it is validated.
+    plugins : sequence of paths, optional
+        Python files with plugins beside those that the scene names; relative to the working folder.
 
     Raises
     ------
     ConfigError
         All problems at once, each with file, line, column and key path.
     """
-    return build(apply_overrides(read_document(path), overrides, NAMED_BY_THE_USER))
+    document = apply_overrides(read_document(path), overrides, NAMED_BY_THE_USER)
+    if plugins:
+        named = document.data.get("plugins") or []
+        more = [str(Path(file).resolve()) for file in plugins]
+        document = document.changed(("plugins",), [*named, *more], "--plugin", NAMED_BY_THE_USER)
+    return build(document)
 
 
 def from_mapping(data: Mapping[str, Any], folder: str | Path = ".", name: str = "scene") -> SceneConfig:
