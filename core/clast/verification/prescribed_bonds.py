@@ -101,7 +101,8 @@ def judge(bench: Bench, names: Sequence[str], model: Model) -> Findings:
             strain = course.axial(time[holds]) if name == "tension" else course.shear(time[holds])
             component = SHOWN.index(name)
             lines += shown(name, 100.0 * strain, 1e-6 * wanted[:, component], 1e-6 * stresses[:, component])
-    yield Sketch(bench.scene().bonds.model.name, "strain, %", "stress, MPa", tuple(lines))  # type: ignore[union-attr]
+    if lines:
+        yield Sketch(bench.scene().bonds.model.name, "strain, %", "stress, MPa", tuple(lines))  # type: ignore[union-attr]
 
 
 def shown(name: str, strain: Floats, wanted: Floats, got: Floats) -> Iterator[Line]:
