@@ -56,7 +56,7 @@ def acceleration(numbers: Numbers, x: Vec, v: Vec, time: float) -> Vec:
     """Return the acceleration in m/s².
 
     >>> acceleration(Numbers((0.0, 0.0, 2.0), (0.0, 0.0, 0.0), 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.0)
-    (8.0, 0.0, 0.0)
+    (8.0, -0.0, -0.0)
     """
     turned = cross(numbers.spin, sub(x, numbers.point))
     return scale(-numbers.per_mass, add(cross(numbers.spin, turned), scale(2.0, cross(numbers.spin, v))))
