@@ -72,7 +72,9 @@ def test_the_error_of_an_elastic_impact_falls_with_the_square_of_the_step(tmp_pa
     assert errors[0] > 3.4 * errors[1] > 3.4**2 * errors[2] > 0.0
 
 
-@pytest.mark.parametrize("model", ["elastic", "elastic_plastic", "micro_cracking"])
+@pytest.mark.parametrize(
+    "model", [*(pytest.param(m, marks=pytest.mark.long) for m in ("elastic", "elastic_plastic")), "micro_cracking"]
+)
 def test_a_crush_with_breakage_friction_and_damping_closes(tmp_path: Path, model: str) -> None:
     text = CRUSH
     if model == "elastic":

@@ -152,6 +152,7 @@ def test_check_build_tells_whether_the_energy_ledger_is_compiled_in(crush: Path,
     assert ("energy ledger" in compiled_in, "energy ledger" in left_out) == (asked, not asked)
 
 
+@pytest.mark.long
 def test_velocity_verlet_leapfrog_and_midstep_agree_on_an_elastic_press(crush: Path) -> None:
     elastic = {"bonds.model.yield_stress": "1 GPa", "bonds.model.breakage_strain": 0.5, "time.end.strain": 0.06}
     forces = []

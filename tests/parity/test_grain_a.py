@@ -51,6 +51,7 @@ def test_model_1_follows_musen_to_the_first_break(tmp_path: Path) -> None:
         assert found.cracks["time"][0] * 0.01 / 2.16e-3 == pytest.approx(first["strain"][0], abs=5e-5)
 
 
+@pytest.mark.long
 def test_model_2_follows_musen_to_10_percent_strain(tmp_path: Path) -> None:
     """Within 20 mN of up to 8.6 N; MUSEN does not tilt the history of its bonds, which makes it softer by 0.2 %."""
     with crush(tmp_path, MODEL_2, milliseconds=22) as found:
