@@ -5,57 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from clast.engine.records import build, numbers
 from clast.maths.counter_random import uniform
 from clast.maths.rotation import turn
 from clast.parts.bond_kinematics import BondMotion
-from clast.parts.bond_model import BondLoad, RandomKey, Strain
+from clast.parts.bond_model import BondLoad
 from clast.plugins.discovery import discover
+from clast.testing.bond_bits import compiled_alike
+from clast.testing.bonds import Bond
 from clast_plugins.bond_kinematics import incremental, total
 from tests.support.bits import assert_same_bits, random_directions, random_rotations
-from tests.support.bonds import GEOMETRY, L0, WRITTEN, R, law
+from tests.support.bonds import GEOMETRY, L0, WRITTEN, law
 
 COUNT = 2000
-
-
-def no_flow(strain, constants, state):
-    return state
-
-
-def no_overload(strain, constants, state):
-    return 0.0
-
-
-def no_event(strain, constants, state, key):
-    return state
-
-
-def sweep_of(model, first):
-    """Return a loop that takes a bond along strains and writes load, energy, index, mode and overload."""
-    load, energy, failure, mode = model.load, model.energy, model.failure, model.mode
-    flow = model.flow or no_flow
-    overload = model.overload or no_overload
-    on_event = model.on_event or no_event
-
-    def sweep(strains, constants, out):
-        state = first
-        for k in range(len(strains)):
-            s = strains[k]
-            strain = Strain(s[0], (s[1], s[2], s[3]), s[4], (s[5], s[6], s[7]))
-            state = flow(strain, constants, state)
-            out[k, 8] = overload(strain, constants, state)
-            if out[k, 8] > 1.0:
-                state = on_event(strain, constants, state, RandomKey(1, k % 7))
-            told = load(strain, constants, state)
-            out[k, 0], out[k, 4] = told.normal, told.torsion
-            out[k, 1], out[k, 2], out[k, 3] = told.shear
-            out[k, 5], out[k, 6], out[k, 7] = told.bending
-            out[k, 9] = failure(strain, told, constants, state)
-            out[k, 10] = energy(strain, constants, state)
-            out[k, 11] = mode(strain, told, constants, state)
-
-    functions = [load, energy, failure, mode, flow, overload, on_event]
-    return sweep, functions
 
 
 @pytest.mark.parametrize(
@@ -72,14 +33,8 @@ def sweep_of(model, first):
     ],
 )
 def test_a_bond_model_gives_the_same_bits(name):
-    draw = np.random.default_rng(7)
-    bond = law(name)
-    constants = build(type(bond.constants), numbers(bond.constants))
-    strains = draw.normal(size=(COUNT, 8)) * np.array([L0] * 4 + [L0 / R] * 4) * 0.004
-    strains[::10, draw.integers(0, 8, COUNT // 10)] = 0.0
-    strains[0] = 0.0
-    sweep, functions = sweep_of(bond.model, bond.start)
-    assert_same_bits(sweep, functions, COUNT, 12, strains, constants)
+    model, constants, start = law(name)
+    compiled_alike(Bond(model, None, constants, start, size=0.004), COUNT)
 
 
 def test_every_registered_bond_model_is_compared():

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import FunctionType
 from typing import Any
 
-import numba
 import numpy as np
 
-from clast.engine.assemble import let_compiled_code_call
+from clast.testing.bits import same_bits
 
 
 def assert_same_bits(
@@ -24,14 +22,7 @@ def assert_same_bits(
     functions : list of functions
         What it calls of the parts under test.
     """
-    assert isinstance(sweep, FunctionType)
-    plain, compiled = np.full((count, width), np.nan), np.full((count, width), np.nan)
-    sweep(*arguments, plain)
-    let_compiled_code_call(functions)
-    numba.njit(error_model="numpy")(sweep)(*arguments, compiled)
-    assert np.isfinite(plain).all()
-    different = plain.view(np.uint64) != compiled.view(np.uint64)
-    assert not different.any(), f"rows {np.nonzero(different.any(axis=1))[0][:5]}: {plain[different][:5]}"
+    same_bits(sweep, functions, (count, width), *arguments)
 
 
 def random_rotations(draw: np.random.Generator, count: int) -> np.ndarray:

@@ -1,48 +1,26 @@
-"""Random vectors, directions and rotations, and the few operations on them that tests need."""
+"""What is drawn as in the contract kit, and the few operations on vectors that tests need beside."""
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
-from hypothesis import strategies as st
 
 from clast.maths.rotation import Quat, multiply
-from clast.maths.vec3 import Vec, add, cross, scale
+from clast.maths.vec3 import Vec
+from clast.testing.draws import directions, numbers, rotate, rotation, rotations, unit, vectors
 
-
-def numbers(low: float, high: float) -> st.SearchStrategy[float]:
-    return st.floats(low, high, allow_subnormal=False)
-
-
-def vectors(size: float = 1.0) -> st.SearchStrategy[Vec]:
-    """Draw vectors whose components are 0 or not many orders of magnitude below ``size``."""
-    return st.tuples(*[numbers(-size, size)] * 3).map(lambda a: tuple(0.0 if abs(x) < 1e-9 * size else x for x in a))
-
-
-def unit(a: Vec) -> Vec:
-    length = math.hypot(*a)
-    return (a[0] / length, a[1] / length, a[2] / length)
-
-
-def directions() -> st.SearchStrategy[Vec]:
-    return vectors().filter(lambda a: math.hypot(*a) > 0.1).map(unit)
-
-
-def rotation(axis: Vec, angle: float) -> Quat:
-    s = math.sin(0.5 * angle)
-    return (math.cos(0.5 * angle), s * axis[0], s * axis[1], s * axis[2])
-
-
-def rotations(most: float = math.pi) -> st.SearchStrategy[Quat]:
-    return st.builds(rotation, directions(), numbers(-most, most))
-
-
-def rotate(q: Quat, a: Vec) -> Vec:
-    """Return a vector turned by a unit quaternion."""
-    u = (q[1], q[2], q[3])
-    t = scale(2.0, cross(u, a))
-    return add(add(a, scale(q[0], t)), cross(u, t))
+__all__ = [
+    "assert_close",
+    "assert_turned",
+    "directions",
+    "negated",
+    "numbers",
+    "rotate",
+    "rotation",
+    "rotations",
+    "turned_a_little",
+    "unit",
+    "vectors",
+]
 
 
 def turned_a_little(q: Quat, component: int, angle: float) -> Quat:
