@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from math import asin, cos, pi, sin, tan
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from clast.results.in_words import summary_rows
 from clast.results.side import side_results, side_rows
 from clast.results.warnings import compression_warnings
 from clast.scene.compression import Gauge
+from clast.scene.narrow_plates import narrow_plates
 
 GLASS = {"density": 2500, "young_modulus": "1 GPa", "poisson_ratio": 0.25}
 R = 1.4e-3
@@ -88,6 +90,27 @@ def test_two_smooth_spheres_press_on_the_tube_as_their_slope_tells() -> None:
     assert side.stress_side_Pa == pytest.approx(walls.pressing[1] / (2.0 * pi * R * height), rel=1e-3)
     assert side.stress_lower_Pa == pytest.approx(force / (pi * R**2), rel=1e-4)
     assert side.lateral_pressure_coefficient == pytest.approx(R * tan(slope) / height, rel=2e-3)
+    assert side.wall_friction_share == pytest.approx(0.0, abs=1e-9)
+
+
+def test_four_planes_around_carry_what_a_tube_of_their_girth_does() -> None:
+    force = 1e-3
+    scene, slope, height = two_spheres(force)
+    del scene["walls"]["tube"]
+    planes = {"left": (-R, 0, 1), "right": (R, 0, -1), "front": (-R, 1, 1), "back": (R, 1, -1)}
+    for name, (place, axis, way) in planes.items():
+        point, normal = [0.0, 0.0, 0.0], [0, 0, 0]
+        point[axis], normal[axis] = place, way
+        scene["walls"][name] = {"type": "plane", "material": "glass", "point": point, "normal": normal}
+    scene["compression"] |= {"side": list(planes), "area": 4.0 * R * R}
+    del scene["compression"]["diameter"]
+    simulation = Simulation(from_mapping(scene))
+    simulation.advance_to(simulation.last_step)
+    walls = simulation.world.walls
+    side = simulation.gauge.side_reading(walls, walls.force, walls.pressing)
+    assert side is not None
+    assert side.stress_side_Pa == pytest.approx(2.0 * force * tan(slope) / (8.0 * R * height), rel=2e-3)
+    assert side.stress_lower_Pa == pytest.approx(force / (4.0 * R * R), rel=1e-4)
     assert side.wall_friction_share == pytest.approx(0.0, abs=1e-9)
 
 
@@ -247,15 +270,45 @@ def test_a_plate_aside_of_the_middle_is_as_far_away_and_one_percent_is_let_pass(
     assert Gauge(from_mapping(bed()).changed(changes)).height == 5.75e-3
 
 
+@pytest.mark.parametrize("given", [{"area": 1e-6, "diameter": 1e-3}, {}])
+def test_a_section_is_given_once(given: dict[str, float]) -> None:
+    scene = bed()
+    del scene["compression"]["diameter"]
+    scene["compression"] |= given
+    with pytest.raises(ConfigError, match="compression: give exactly one of 'diameter' and 'area'"):
+        from_mapping(scene)
+
+
+@pytest.mark.parametrize(
+    ("radius", "said"),
+    [
+        (
+            0.7 * R,
+            r"walls.piston leaves a gap of 0.42\d mm to walls.tube: particles of 0.2 mm slip past it; make it wider",
+        ),
+        (0.9 * R, None),
+        (None, None),
+    ],
+)
+def test_a_plate_that_particles_slip_past_is_pointed_out(radius: float | None, said: str | None) -> None:
+    scene = bed()
+    scene["walls"]["piston"]["radius"] = radius
+    told = narrow_plates(from_mapping(scene), 0.2e-3)
+    assert [re.match(said or "", each) is not None for each in told] == [True] * (said is not None)
+
+
 @pytest.mark.parametrize(
     ("side", "said"),
     [
         ("tub", "compression.side: there is no wall 'tub'; did you mean 'tube'?"),
         ("piston", "compression.side: the side must be another wall than upper and lower"),
-        ("lid", "compression.side: walls.lid is a plane, which surrounds nothing; name a wall such as a cylinder"),
+        ("lid", "compression.side: walls.lid is a plane, which surrounds nothing by itself; name a wall such as"),
+        (["tube", "lid"], "compression.side: walls.tube is a cylinder, which surrounds nothing by itself"),
+        (["lid", "tub"], "compression.side: there is no wall 'tub'; did you mean 'tube'?"),
+        (["lid", "lid"], "compression.side: walls.lid, walls.lid: planes around must be parallel to the line between"),
     ],
 )
-def test_a_side_that_cannot_be_is_refused(side: str, said: str) -> None:
+def test_a_side_that_cannot_be_is_refused(side: str | list[str], said: str) -> None:
     scene = bed()
     scene["compression"]["side"] = side
     scene["walls"]["lid"] = {"type": "plane", "material": "glass", "point": [0, 0, 1], "normal": [0, 0, -1]}

@@ -154,6 +154,7 @@ class Unit:
 
 
 Length = Annotated[float, Unit("m")]
+Area = Annotated[float, Unit("m2")]
 Time = Annotated[float, Unit("s")]
 Stress = Annotated[float, Unit("Pa")]
 Density = Annotated[float, Unit("kg/m3")]

@@ -74,13 +74,17 @@ def _named_material(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
 def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
     walls = _section(data, "walls")
     compression = _section(data, "compression")
-    for key in ("upper", "lower", "side"):
-        name = compression.get(key)
+    side = compression.get("side")
+    sides = side if isinstance(side, list | tuple) else (side,)
+    for key, name in (
+        *((key, compression.get(key)) for key in ("upper", "lower")),
+        *(("side", name) for name in sides),
+    ):
         if isinstance(name, str) and name not in walls and not _unreadable(data, "walls"):
             yield Problem(("compression", key), f"there is no wall {name!r}; {suggestion(name, walls)}")
     if "upper" in compression and compression["upper"] == compression.get("lower"):
         yield Problem(("compression", "lower"), "upper and lower must be two different walls")
-    if "side" in compression and compression["side"] in (compression.get("upper"), compression.get("lower")):
+    if any(name is not None and name in (compression.get("upper"), compression.get("lower")) for name in sides):
         yield Problem(("compression", "side"), "the side must be another wall than upper and lower")
     end = _section(_section(data, "time"), "end")
     if "strain" in end and not compression and not _unreadable(data, "compression"):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from math import pi
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from clast.config.choice import Chosen, PartOf, default_part, registry_of
 from clast.config.problems import refuse
-from clast.config.quantities import Density, Length, Number, Point, Stress, Time, Velocity
+from clast.config.quantities import Area, Density, Length, Number, Point, Stress, Time, Velocity
 from clast.config.scatter import Scatter, scatter_problems
 from clast.parts.params import Params
 
@@ -119,12 +120,35 @@ class Compression(Params):
         Length, Field(gt=0, description="Height that strain refers to; with a side, that between the plates")
     ]
     diameter: Annotated[
-        Length,
-        Field(gt=0, description="Diameter of the section that stress refers to; with a side, that of its section"),
-    ]
-    side: Annotated[
-        str | None, Field(description="Name of the wall around what is pressed, such as the cylinder of an oedometer")
+        Annotated[Length, Field(gt=0)] | None,
+        Field(description="Diameter of the round section that stress refers to; with a side, that of its section"),
     ] = None
+    area: Annotated[
+        Annotated[Area, Field(gt=0)] | None,
+        Field(description="Area of the section that stress refers to, instead of a diameter"),
+    ] = None
+    side: Annotated[
+        tuple[str, ...],
+        BeforeValidator(lambda given: (given,) if isinstance(given, str) else given),
+        Field(
+            description="Name of the wall around what is pressed, such as an oedometer's cylinder, or of all planes "
+            "around it, such as the four of a box"
+        ),
+    ] = ()
+
+    @model_validator(mode="after")
+    def _has_one_section(self) -> Compression:
+        if (self.diameter is None) == (self.area is None):
+            raise ValueError("give exactly one of 'diameter' and 'area'")
+        return self
+
+    @property
+    def section(self) -> float:
+        """Area that stress refers to, in m²."""
+        if self.area is not None:
+            return self.area
+        assert self.diameter is not None
+        return 0.25 * pi * self.diameter**2
 
 
 class NeighbourSettings(Params):

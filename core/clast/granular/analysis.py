@@ -50,7 +50,7 @@ class Moment:
     height : Profile
         Over the height of the bed.
     radius : Profile or None
-        Over the distance from the axis; None where no tube holds the bed.
+        Over the distance from the axis; None where the walls around are no tube.
     """
 
     frame: int
@@ -73,7 +73,7 @@ class Granular:
     grains : Grains
         The grains as packed.
     bed : Bed
-        Axis, plates and tube.
+        Axis, plates, tube and section.
     history : dict of str to (F,) float64
         One value a frame: ``frame``, ``time_s``, ``strain``, ``fragments``, ``d10_m``, ``d50_m``, ``d90_m``,
         ``hardin``, ``einav``, ``grains_intact``, ``grains_damaged``, ``grains_crushed``, ``damage`` (mean over the
@@ -173,7 +173,7 @@ class _Eye:
             grading=seen.grading,
             damage=seen.damage,
             coordination=coordination_numbers(pairs, self.grains.count),
-            height=over_height(primaries, tube, bins, height, pairs),
+            height=over_height(primaries, self.bed.section, bins, height, pairs),
             radius=None if tube is None else over_radius(primaries, tube, bins, distance, pairs),
         )
 

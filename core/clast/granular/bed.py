@@ -28,12 +28,16 @@ class Bed:
         The two plates; None without a ``compression``.
     tube : float or None
         Radius in m of the tube that holds the bed; None where there is none.
+    section : float or None
+        Area in m² of the cross-section inside the walls around the bed: the tube, or those under ``compression.side``;
+        None where there are none.
     """
 
     origin: Floats
     axis: Floats
     plates: tuple[WallMesh, WallMesh] | None
     tube: float | None
+    section: float | None
 
     def heights(self, position: Floats) -> Floats:
         """Return the heights of points over the origin in m, (n,)."""
@@ -45,8 +49,8 @@ class Bed:
         return np.asarray(np.linalg.norm(way - np.outer(way @ self.axis, self.axis), axis=1))
 
     def room(self, low: float, high: float) -> float:
-        """Return the volume of the tube between two heights in m³; NaN without a tube."""
-        return np.nan if self.tube is None else np.pi * self.tube**2 * (high - low)
+        """Return the volume inside the walls around between two heights in m³; NaN without walls around."""
+        return np.nan if self.section is None else self.section * (high - low)
 
     def gap(self, frame: Frame) -> tuple[float, float]:
         """Return the heights of the lower and the upper plate in m; infinite without plates."""
@@ -66,7 +70,7 @@ class Bed:
 
 
 def bed_of(run: Run) -> Bed:
-    """Return the bed of a run that has frames: plates as under ``compression``, a tube where a wall is one.
+    """Return the bed of a run that has frames: plates and side as under ``compression``, a tube where a wall is one.
 
     A wall is a tube where all points of its mesh have one distance from a line along the axis, and all particles lie
     inside that.
@@ -76,7 +80,7 @@ def bed_of(run: Run) -> Bed:
     if plates is not None:
         origin, upper = (plate.points.mean(axis=0) for plate in plates)
         axis = (upper - origin) / np.linalg.norm(upper - origin)
-    found = Bed(origin, axis, plates, None)
+    found = Bed(origin, axis, plates, None, _section(run))
     for wall in run.walls.values():
         tube = _as_tube(found, wall)
         if tube is not None and _holds_all(tube, run):
@@ -90,15 +94,24 @@ def _plates(run: Run) -> tuple[WallMesh, WallMesh] | None:
     return None if lower is None or upper is None else (lower, upper)
 
 
+def _section(run: Run) -> float | None:
+    """Return the section in m² that walls around a compression leave, as the scene has it."""
+    told = run.config.get("compression") or {}
+    if not told.get("side"):
+        return None
+    return float(told["area"]) if told.get("area") else 0.25 * np.pi * float(told["diameter"]) ** 2
+
+
 def _as_tube(bed: Bed, wall: WallMesh) -> Bed | None:
     centre = wall.points.mean(axis=0)
     origin = centre - ((centre - bed.origin) @ bed.axis) * bed.axis
-    candidate = Bed(origin, bed.axis, bed.plates, None)
+    candidate = Bed(origin, bed.axis, bed.plates, None, None)
     distance = candidate.distances(wall.points)
     height = candidate.heights(wall.points)
     if np.ptp(distance) > ROUND * distance.mean() or np.ptp(height) <= ROUND * distance.mean():
         return None
-    return Bed(origin, bed.axis, bed.plates, float(distance.mean()))
+    radius = float(distance.mean())
+    return Bed(origin, bed.axis, bed.plates, radius, np.pi * radius**2)
 
 
 def _holds_all(tube: Bed, run: Run) -> bool:

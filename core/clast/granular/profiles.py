@@ -26,9 +26,9 @@ class Profile:
     edges : (b + 1,) float64
         Heights over the lower plate as it was at the start, or distances from the axis, in m.
     solid : (b,) float64
-        Share that primaries fill: 1 minus the total porosity. NaN without a tube.
+        Share that primaries fill: 1 minus the total porosity. NaN without walls around.
     envelope : (b,) float64
-        Share that fragments with their pores fill: 1 minus the porosity between them. NaN without a tube.
+        Share that fragments with their pores fill: 1 minus the porosity between them. NaN without walls around.
     coordination : (b,) float64
         Mean coordination number of the grains whose centres lie there; NaN where none does.
     """
@@ -83,14 +83,14 @@ def packed(bed: Bed, grains: Grains, found: Pieces, position: Floats, extent: tu
     )
 
 
-def over_height(of: Packed, tube: float | None, bins: int, where: Floats, pairs: Ints) -> Profile:
+def over_height(of: Packed, section: float | None, bins: int, where: Floats, pairs: Ints) -> Profile:
     """Return the profile over the height of a bed.
 
     Parameters
     ----------
     of : Packed
-    tube : float or None
-        Radius in m of the tube that holds it.
+    section : float or None
+        Area in m² inside the walls around it.
     bins : int
     where : (g,) float64
         Height of each grain's centre in m.
@@ -98,7 +98,7 @@ def over_height(of: Packed, tube: float | None, bins: int, where: Floats, pairs:
         Grains in contact.
     """
     edges = np.linspace(of.low, of.high, bins + 1)
-    room = np.diff(edges) * (np.nan if tube is None else np.pi * tube**2)
+    room = np.diff(edges) * (np.nan if section is None else section)
     solid, envelope = slab_volumes(of.height, of.radius, edges, of.weights).T / room
     return Profile(edges, solid, envelope, _means(where, edges, pairs))
 

@@ -28,8 +28,9 @@ def compression_warnings(pressed: Compression, told: dict[str, Any]) -> list[str
     share = told.get("side_wall", {}).get("over_the_loading", {}).get("unbalanced_share")
     if share is None or share <= MOST_UNBALANCED:
         return []
+    carrying = " and ".join(f"walls.{name}" for name in (pressed.lower, *pressed.side))
     return [
-        f"walls.{pressed.lower} and walls.{pressed.side} carry {share:.1%} more or less than walls.{pressed.upper} "
+        f"{carrying} carry {share:.1%} more or less than walls.{pressed.upper} "
         "presses with (mean over the loading): what is pressed is not at rest. Lower the velocity of the walls or "
         "time.mass_scaling"
     ]

@@ -3,37 +3,37 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import ceil, pi, sqrt
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.beside import WallChoice
-from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.state import Walls
 from clast.scene.approach import time_of
+from clast.scene.side_walls import SideWalls, side_walls
 
 Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
 MOST_OFF = 0.01
-"""Share by which height and diameter of a compression in a tube may differ from those of its walls."""
+"""Share by which the height of a compression with a side, and the width of its section, may differ from the walls'."""
 
 
 class SideReading(NamedTuple):
-    """What a wall around a compression carries.
+    """What the walls around a compression carry, together.
 
     Attributes
     ----------
     stress_lower_Pa : float
         Force on the lower wall over the area of the section, in Pa.
     stress_side_Pa : float
-        What presses on the wall around along its normals, over its face between the plates as they stand, in Pa.
+        What presses on the walls around along their normals, over their face between the plates as they stand, in Pa.
     lateral_pressure_coefficient : float
-        Stress on the wall around over the mean of the stresses on the plates; 0 where nothing presses on them.
+        Stress on the walls around over the mean of the stresses on the plates; 0 where nothing presses on them.
     wall_friction_share : float
-        Force on the wall around in the direction in which the upper wall presses, over the force on the upper wall; 0
+        Force on the walls around in the direction in which the upper wall presses, over the force on the upper wall; 0
         where nothing presses on that. At rest and without weight the rest is carried by the lower wall.
     """
 
@@ -44,11 +44,12 @@ class SideReading(NamedTuple):
 
 
 class Gauge:
-    """Strain and stress of a compression between an upper and a lower wall, and those on a wall around.
+    """Strain and stress of a compression between an upper and a lower wall, and those on the walls around.
 
     Displacement is the approach of the two walls along the line from the lower wall's reference point to the upper
-    one's; strain is displacement over ``compression.height``; stress is the force on the upper wall over the area of
-    a circle of ``compression.diameter``. What is read off the wall around is told by :class:`SideReading`.
+    one's; strain is displacement over ``compression.height``; stress is the force on the upper wall over
+    ``compression.area``, or that of a circle of ``compression.diameter``. What is read off the walls around is told by
+    :class:`SideReading`.
     """
 
     def __init__(self, config: SceneConfig) -> None:
@@ -59,11 +60,11 @@ class Gauge:
             self.upper = self.names.index(config.compression.upper)
             self.lower = self.names.index(config.compression.lower)
             self.height = config.compression.height
-            self.area = 0.25 * pi * config.compression.diameter**2
+            self.area = config.compression.section
             line = self._line()
             self.distance = float(np.linalg.norm(line))
             self.axis = line / self.distance
-            self.side, self.girth = self._side(config.compression.side)
+            self.side = self._side(self.axis)
 
     def _line(self) -> Floats:
         """Return the way from the lower wall's reference point to the upper one's at the start, in m."""
@@ -76,22 +77,11 @@ class Gauge:
             )
         return line
 
-    def _side(self, name: str | None) -> tuple[int | None, float]:
-        """Return the number of the wall around and its circumference in m."""
-        if name is None:
-            return None, 0.0
-        side = self.names.index(name)
-        shape = self._wall(side).shape
-        if shape.part.girth is None:
-            raise self.config.problem(
-                ("compression", "side"),
-                f"walls.{name} is a {shape.name}, which surrounds nothing; name a wall such as a cylinder",
-            )
-        self._refuse_another_geometry(name, shape)
-        return side, float(shape.part.girth(shape.params))
-
-    def _refuse_another_geometry(self, name: str, side: Chosen) -> None:
-        """Refuse numbers for strain and stress that are not those of the plates and the wall around."""
+    def _side(self, axis: Floats) -> SideWalls | None:
+        """Return the walls around, after the height between the plates and the section were held against them."""
+        found = side_walls(self.config, axis)
+        if found is None:
+            return None
         upper, lower = self.names[self.upper], self.names[self.lower]
         apart = abs(self._wall(self.lower).distance(self._centre(self.upper)))
         if abs(self.height - apart) > MOST_OFF * self.height:
@@ -100,16 +90,23 @@ class Gauge:
                 "needs this distance: give it here, or move a wall"
             )
             raise self.config.problem(("compression", "height"), text)
-        if side.part.section is None:
+        self._refuse_another_section(found)
+        return found
+
+    def _refuse_another_section(self, side: SideWalls) -> None:
+        pressed = self.config.compression
+        assert pressed is not None
+        if side.section is None or abs((side.section / self.area) ** 0.5 - 1.0) <= MOST_OFF:
             return
-        wide = sqrt(4.0 / pi * side.part.section(side.params))
-        diameter = sqrt(4.0 / pi * self.area)
-        if abs(diameter - wide) > MOST_OFF * diameter:
-            text = (
-                f"{1e3 * diameter:.5g} mm, but walls.{name} has the section of a circle of {1e3 * wide:.5g} mm; stress "
-                "needs this one: give it here, or change the wall"
-            )
-            raise self.config.problem(("compression", "diameter"), text)
+        if pressed.diameter is not None:
+            key, given = "diameter", f"{1e3 * pressed.diameter:.5g} mm"
+            true = f"the section of a circle of {1e3 * side.diameter:.5g} mm"
+        else:
+            key, given, true = "area", f"{1e6 * self.area:.5g} mm2", f"a section of {1e6 * side.section:.5g} mm2"
+        raise self.config.problem(
+            ("compression", key),
+            f"{given}, but {side.text} {true}; stress needs this one: give it here, or change the walls",
+        )
 
     def _centre(self, k: int) -> Floats:
         wall = self._wall(k).shape
@@ -130,7 +127,7 @@ class Gauge:
         return float(force[self.upper] @ self.axis), float(-force[self.lower] @ self.axis)
 
     def side_reading(self, walls: Walls, force: Floats, pressing: Floats) -> SideReading | None:
-        """Return what the wall around carries; None without one.
+        """Return what the walls around carry; None without any.
 
         Parameters
         ----------
@@ -138,19 +135,19 @@ class Gauge:
         force : (w, 3) float64
             Forces on the walls in N.
         pressing : (w,) float64
-            How hard contacts press on the walls along their normals, in N.
+            How hard contacts press on walls that are not flat along their normals, in N.
         """
         if self.axis is None or self.side is None:
             return None
         upper, lower = self.forces(force)
-        face = self.girth * (self.distance - self.displacement(walls))
-        radial = pressing[self.side] / face if face > 0.0 else 0.0
+        face = self.side.girth * (self.distance - self.displacement(walls))
+        radial = self.side.pressed(force, pressing) / face if face > 0.0 else 0.0
         axial = 0.5 * (upper + lower) / self.area
-        carried = -float(force[self.side] @ self.axis)
+        carried = -float(force[list(self.side.walls)].sum(axis=0) @ self.axis)
         return SideReading(
             stress_lower_Pa=lower / self.area,
-            stress_side_Pa=float(radial),
-            lateral_pressure_coefficient=float(radial / axial) if axial > 0.0 else 0.0,
+            stress_side_Pa=radial,
+            lateral_pressure_coefficient=radial / axial if axial > 0.0 else 0.0,
             wall_friction_share=carried / upper if upper > 0.0 else 0.0,
         )
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+import yaml
 
 from clast.errors import RunError
 from clast.granular.analysis import Granular, analyse, frame_at
@@ -164,6 +165,22 @@ def test_a_run_without_a_tube_and_a_compression_has_no_porosity_but_all_else(tmp
     assert found.moments[-1].radius is None
     assert found.moments[-1].pieces.mass.sum() == pytest.approx(80 * 2500.0 * sphere_volumes(np.array([0.18e-3]))[0])
     assert found.cracks.by_height.sum() == len(run.cracks["bond"])
+
+
+def test_between_the_walls_named_as_side_porosity_refers_to_the_section(bed_folder: Path, tmp_path: Path) -> None:
+    folder = changed(bed_folder, tmp_path / "run", walls__tube__points=None)
+    with h5py.File(folder / "results.h5", "r+") as file:
+        del file["walls/tube"]
+    config = yaml.safe_load((folder / "config.yaml").read_text())
+    config["compression"] = {"upper": "piston", "lower": "floor", "side": ["a", "b", "c", "d"], "area": 4.84e-6}
+    (folder / "config.yaml").write_text(yaml.safe_dump(config))
+    with open_run(folder) as run:
+        found = analyse(run)
+    assert found.bed.tube is None
+    assert found.moments[-1].radius is None
+    room = 4.84e-6 * (found.history["high_m"] - found.history["low_m"])
+    assert found.history["porosity"] == pytest.approx(1.0 - found.grains.volume.sum() / room)
+    assert np.mean(found.moments[-1].height.solid) == pytest.approx(1.0 - found.history["porosity"][-1], rel=1e-9)
 
 
 def test_a_rod_amid_the_grains_is_no_tube(bed_folder: Path, tmp_path: Path) -> None:

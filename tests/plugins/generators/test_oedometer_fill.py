@@ -233,7 +233,7 @@ def test_a_bed_below_the_height_asked_for_is_pointed_out() -> None:
     built = build_scene(fill(height="40 mm"))
     (told,) = built.report.values()
     assert str(told["height_not_reached"]).startswith("the bed ends 3")
-    assert float(told["porosity_between_grains"]) < 0.7
+    assert float(told["porosity_between"]) < 0.7
     low, *_ = concerns(built)
     assert low.startswith("scene: particles: the bed ends 3")
     assert "mm below the height asked for, so that a piston at this height meets nothing at first; lower" in low

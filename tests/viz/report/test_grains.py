@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -36,6 +37,8 @@ def test_a_bed_has_a_section_with_charts_and_a_table(bed: Path) -> None:
     assert page.rows["d50"][0].startswith("0.94 mm → ")
     for told in ("Grading by mass", "Where and when bonds broke", "Solid fraction near the wall", "ultimate, fractal"):
         assert told in page.text
+    assert "Force chains at " in page.text
+    assert re.search(r"\d+ links with [\d.e-]+ N on average; \d+% of them carry half of all force\. Lines", page.text)
     assert page.foreign == []
     assert len(set(page.ids)) == len(page.ids)
 
@@ -65,7 +68,7 @@ def test_a_bed_that_is_not_in_a_tube_and_one_that_cannot_be_looked_at_say_so(bed
     with h5py.File(bed / "results.h5", "r+") as file:
         del file["walls/tube"]
     page = page_of(bed)
-    assert "No porosities and solid fractions, as no tube holds the bed." in page.text
+    assert "No porosities and solid fractions, as no walls around the bed are named." in page.text
     assert "Solid fraction near the wall" not in page.text
     config = yaml.safe_load((bed / "config.yaml").read_text())
     (bed / "config.yaml").write_text(yaml.safe_dump({"name": config["name"]}))
@@ -94,6 +97,15 @@ def test_a_bed_of_which_one_frame_was_kept_has_no_course_but_a_grading(bed: Path
         assert "What becomes of the grains" not in page.text
         assert "Grading by mass" in page.text
         assert page.rows["d50"][-1] == "0.94 mm → 0.94 mm"
+
+
+def test_a_bed_of_which_contacts_were_not_kept_or_do_not_press_has_no_chains(bed: Path) -> None:
+    with h5py.File(bed / "results.h5", "r+") as file:
+        file["contacts/normal_force"][...] = 0.0
+    assert "Force chains" not in page_of(bed).text
+    with h5py.File(bed / "results.h5", "r+") as file:
+        del file["frames/contacts_end"]
+    assert "Force chains" not in page_of(bed).text
 
 
 def test_the_tables_are_written_by_a_writer(bed: Path) -> None:

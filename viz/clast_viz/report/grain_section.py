@@ -11,7 +11,8 @@ from clast.errors import RunError
 from clast.granular.analysis import Granular, analyse
 from clast.granular.coordination import TOLERANCE
 from clast.granular.damage import CRUSHED, DAMAGED, INTACT
-from clast_viz.report import crack_chart, grain_charts
+from clast_viz.curves import has_compression
+from clast_viz.report import chain_chart, crack_chart, grain_charts
 from clast_viz.report.grain_charts import Shown
 from clast_viz.report.section import Drawer, Member, Section, left_out
 
@@ -61,18 +62,32 @@ def _draw_all(shown: Sequence[Shown], draw: Drawer, section: Section) -> None:
         title = "Where and when bonds broke" + (f": {each.label}" if several else "")
         chart = partial(crack_chart.crack_chart, each, crack_chart.most_in_one_place(cracked))
         section.charts.append(draw(title, chart, crack_chart.CAPTION))
+    for each in shown:
+        _draw_chains(each, draw, section)
     section.charts.append(draw("Grading by mass", partial(grain_charts.gradings, shown), SIZES))
     section.charts.append(draw("Bonds broken per grain", partial(grain_charts.damages, shown)))
+    walled = [each for each in shown if each.found.bed.section is not None]
     tubes = [each for each in shown if each.found.bed.tube is not None]
+    if walled:
+        section.charts.append(draw("Solid fraction over the height", partial(grain_charts.over_height, walled), FILLED))
     if tubes:
-        section.charts.append(draw("Solid fraction over the height", partial(grain_charts.over_height, tubes), FILLED))
         section.charts.append(draw("Solid fraction near the wall", partial(grain_charts.near_wall, tubes), FILLED))
     section.charts.append(draw("Grains in contact with a grain", partial(grain_charts.coordination, shown), TOUCHING))
     over_height = partial(grain_charts.coordination_over_height, shown)
     section.charts.append(draw("Coordination number over the height", over_height))
     beds = [Member(each.run, each.label, each.style) for each in shown]
-    free = [bed for bed, each in zip(beds, shown, strict=True) if each.found.bed.tube is None]
-    section.notes += left_out(free, beds, "no porosities and solid fractions, as no tube holds the bed")
+    free = [bed for bed, each in zip(beds, shown, strict=True) if each.found.bed.section is None]
+    section.notes += left_out(free, beds, "no porosities and solid fractions, as no walls around the bed are named")
+
+
+def _draw_chains(shown: Shown, draw: Drawer, section: Section) -> None:
+    found = chain_chart.network(shown.run)
+    if found is None:
+        return
+    when = f"{found.strain:.1%} strain" if has_compression(shown.run) else f"{found.time:.4g} s"
+    title = f"Force chains at {when}" + (f": {shown.label}" if section.overlaid else "")
+    caption = chain_chart.sentence(found) + chain_chart.CAPTION
+    section.charts.append(draw(title, partial(chain_chart.chain_chart, shown, found), caption))
 
 
 def _change(column: str, form: Callable[[float], str]) -> Callable[[Granular], str]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from math import pi
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.granular.envelope import hull_volume
 from clast_plugins.generators.filling.recipe import Recipe
 from clast_plugins.generators.filling.rigid import Grains, list_pairs, neighbours_touching
 from clast_plugins.generators.filling.room import Room
@@ -32,7 +33,8 @@ def account(
     """Return what a fill of fractions with these names reached.
 
     Densities and porosities are those below the height in m that was ``asked``, or below the mean surface where none
-    was or the bed does not reach it. Porosity between grains counts each grain as a sphere of its diameter.
+    was or the bed does not reach it. Porosities are those of :mod:`clast.granular`: in all, and between the grains, which
+    then count with their pores, as convex hulls of their primaries.
     """
     grains, settled = bed.grains, bed.settled
     names, mass, surface = list(fractions), float(recipe.mass.sum()), mean_surface(grains, room)
@@ -54,8 +56,8 @@ def account(
         told["height_not_reached"] = f"the bed ends {1e3 * (asked - settled.height):.3g} mm below the height asked for"
     return told | {
         "bulk_density_kg_per_m3": mass / volume,
-        "porosity_between_primaries": 1.0 - float(grains.volume.sum()) / volume,
-        "porosity_between_grains": 1.0 - float((pi / 6.0 * recipe.diameter**3).sum()) / volume,
+        "porosity": 1.0 - float(grains.volume.sum()) / volume,
+        "porosity_between": 1.0 - sum(hulls(grains)) / volume,
         "coordination_of_grains": neighbours_touching(grains),
         "height_of_poured_spheres_m": float((bed.poured[:, 2] + grains.reach).max()),
         "times_poured": bed.tries,
@@ -63,6 +65,12 @@ def account(
         "largest_overlap_m": settled.overlap,
         "residual_stress_per_contact_modulus": residual_stress(grains, volume),
     }
+
+
+def hulls(grains: Grains) -> list[float]:
+    """Return the volume in m³ of the convex hull of each grain's primaries."""
+    bounds = pairwise(grains.begin.tolist())
+    return [hull_volume(grains.arm[first:last], grains.radius[first:last]) for first, last in bounds]
 
 
 def concerns(told: Mapping[str, float | int | str]) -> tuple[str, ...]:
