@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from clast.bench import beside, crush, following, search, sizes, third_party, waiting
+from clast.bench import bed, beside, crush, following, search, sizes, third_party, waiting
 from clast.bench.precision.sections import SECTIONS as PRECISION
 from clast.bench.section import Section
 from clast.errors import ConfigError
@@ -15,6 +15,7 @@ SECTIONS: tuple[Section, ...] = (
     *ERROR_AGAINST_TIME,
     beside.SECTION,
     sizes.SECTION,
+    bed.SECTION,
     search.SECTION,
     waiting.SECTION,
     following.SECTION,

@@ -67,6 +67,22 @@ def compare_scenes(first: str, steps: str, rounds: str, *files: str) -> Measured
     return times
 
 
+def compare_threads(file: str, first: str, steps: str, rounds: str, *threads: str) -> Measured:
+    """Advance copies of a scene on several numbers of threads by turns; wall s per step of each, one value a round."""
+    config = load(file)
+    simulations = {each: Simulation(config, int(each)) for each in threads}
+    for simulation in simulations.values():
+        simulation.advance_to(int(first))
+    seconds: dict[str, list[float]] = {each: [] for each in threads}
+    for _ in range(int(rounds)):
+        for each, simulation in simulations.items():
+            begun = time.perf_counter()
+            simulation.advance_to(simulation.step + int(steps))
+            seconds[each].append((time.perf_counter() - begun) / int(steps))
+    scene = simulations[threads[0]].scene
+    return {"seconds": seconds, "particles": len(scene.radius), "bonds": len(scene.ends)}
+
+
 def write(folder: str, *names: str) -> Measured:
     """Let writers write the files of a run again, in this process, as the one that a run starts does; peak in MB."""
     with TemporaryDirectory() as drafts:
@@ -74,7 +90,7 @@ def write(folder: str, *names: str) -> Measured:
     return {"memory_MB": peak_memory()}
 
 
-TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes, write)}
+TASKS = {task.__name__: task for task in (window, first_step, compile_scenes, compare_scenes, compare_threads, write)}
 
 
 def main(arguments: Sequence[str]) -> None:
