@@ -27,11 +27,11 @@ def _print_json(data: Any) -> None:
 def plugins(ctx: click.Context, files: tuple[Path, ...], as_json: bool) -> None:
     """List every part that is installed, and what became of every plugin."""
     from clast.config.describe import plugins_data, plugins_text
-    from clast.plugins.discovery import discover
+    from clast.plugins.discovery import listing
 
     ctx.obj = files
     if ctx.invoked_subcommand is None:
-        registry = discover(files)
+        registry = listing(files)
         _print_json(plugins_data(registry)) if as_json else click.echo(plugins_text(registry))
 
 

@@ -108,7 +108,6 @@ class _Session:
 
     def __init__(self, simulation: Simulation, folder: Path, resume: bool, listener: Listener) -> None:
         self.simulation, self.folder, self.listener = simulation, folder, listener
-        self.parts = summary.parts(simulation)
         simulation.note_start()
         notes = checkpoint.load(folder, simulation) if resume else {}
         self.seconds_before = float(notes.get("seconds", 0.0))
@@ -196,7 +195,7 @@ class _Session:
                 columns = curves.flattened(tracks, run.tracked[what], what.rstrip("s"))
                 file = self.folder / f"tracks_{what}.csv"
                 written[f"tracks of {what}"] = Written(curves.write(file, {"time_s": run.curves["time_s"], **columns}))
-            told = summary.summarise(self.simulation, self.parts, run.curves, self.seconds)
+            told = summary.summarise(self.simulation, run.curves, self.seconds)
             told |= summary.mass_scaling_results(self.simulation, run)
             written["summary"] = Written(summary.write(self.folder, told))
         writers = [chosen.name for chosen in self.simulation.config.output.writers]

@@ -22,6 +22,7 @@ from clast.engine.kernels.layout import (
 )
 from clast.engine.ledger import Ledger, read_ledger
 from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
+from clast.engine.parts_used import parts_of
 from clast.engine.rehearsal import try_laws
 from clast.engine.state import Floats, World
 from clast.engine.step_keeper import StepKeeper
@@ -36,6 +37,7 @@ from clast.scene.plan import blueprint, largest_reach
 from clast.scene.scene import Scene
 from clast.scene.start import check_start, outside_of
 from clast.scene.world import build_world, relieve
+from clast.soundness.suspects import foreign_laws
 from clast.soundness.watch import Soundness
 
 BOND_COLUMNS = 8
@@ -54,8 +56,8 @@ class Simulation:
 
     Attributes
     ----------
-    scene : Scene
-        What the generators made.
+    parts, scene : Parts, Scene
+        Digests of the sources of all parts when this was made; what the generators made.
     limits : Limits
         Limits of the time step at the start.
     timeline : Timeline
@@ -74,10 +76,8 @@ class Simulation:
         Step at which the scene ends, with the present time step.
     planned_steps : int
         The same with the first time step.
-    removed : int
-        Particles that have left the domain.
-    rebuilds : int
-        How often neighbour lists were made.
+    removed, rebuilds : int
+        How many particles have left the domain; how often neighbour lists were made.
     ended : Ended or None
         Why the run ended early.
     soundness : Soundness
@@ -88,6 +88,7 @@ class Simulation:
         self, config: SceneConfig, threads: int | None = None, compiling: Callable[[], None] | None = None
     ) -> None:
         self.config = config
+        self.parts = parts_of(config)
         self.gauge = Gauge(config)  # refuses what a packing cannot mend, before it takes its time
         self.scene: Scene = build_scene(config)
         check_start(self.scene)
@@ -270,10 +271,11 @@ class Simulation:
 
     def _stop_for(self, complaint: str | None) -> None:
         if complaint is not None:
+            laws = foreign_laws(self.config)
             raise RunError(
                 f"stopped at step {self.step} (t = {self.time:.4g} s), where the numbers cannot be trusted any more: "
                 f"{complaint}. The step is {self.dt:.4g} s, the limit at the start {self.limits.stable:.4g} s: take a "
-                "smaller time.step, or look for overlapping or very stiff parts with 'clast check --build'"
+                f"smaller time.step, or look for overlapping or very stiff parts with 'clast check --build'{laws}"
             )
 
     def _remove_leavers(self) -> None:

@@ -11,8 +11,10 @@ import pytest
 from clast import Simulation, load, run_scene
 from clast.config.scene import SceneConfig
 from clast.errors import RunError
+from clast.plugins.new import write_starter
 from clast.results.in_words import summary_rows
 from clast.soundness.energy import Balance
+from clast.soundness.suspects import foreign_laws
 from tests.scenes import CRUSH, write
 
 UNSTABLE = {"time.allow_unstable": True, "output.samples": 500}
@@ -59,3 +61,11 @@ def test_energy_is_compared_with_the_look_that_leaves_the_least(tmp_path: Path) 
     gained = ledger._replace(kinetic=100.0, walls=0.3)
     assert "energy came from nowhere" in str(watch.complaint(gained, simulation.world))
     assert watch.complaint(gained._replace(walls=100.0), simulation.world) is None
+
+
+def test_the_advice_names_laws_that_are_not_clasts_own_only(tmp_path: Path) -> None:
+    file = write(tmp_path, CRUSH)
+    assert foreign_laws(load(file)) == ""
+    law = write_starter("damping", "mine", tmp_path / "mine.py")
+    told = foreign_laws(load(file, [f"plugins=[{law}]", "damping={type: mine, rate: 0.5}"]))
+    assert told.endswith(f": try damping 'mine' ({law}) with 'clast plugins check'")

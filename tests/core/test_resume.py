@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -126,6 +128,24 @@ def test_another_scene_is_not_resumed(scene: Path, whole: Path) -> None:
     assert refused.returncode == 1
     assert "bonds.model.yield_stress: 2000000.0 there, 3000000.0 here" in refused.stderr
     assert "Traceback" not in refused.stderr
+
+
+def test_parts_that_were_edited_since_are_named_before_anything_is_packed(
+    scene: Path, whole: Path, tmp_path: Path
+) -> None:
+    folder = Path(shutil.copytree(whole, tmp_path / "run"))
+    for checkpoint in folder.glob("checkpoint*.h5"):
+        with h5py.File(checkpoint, "r+") as file:
+            about = json.loads(str(file.attrs["about"]))
+            about["parts"]["contact_law.hertz_mindlin"] = {"source": "law.py", "digest": "before it was edited"}
+            file.attrs["about"] = json.dumps(about)
+    result = run(scene, folder, "--resume")
+    assert result.returncode != 0
+    assert re.search(
+        r"was computed before this changed: contact_law 'hertz_mindlin' \(clast [\d.]+\S*\)\. Going on would",
+        result.stderr,
+    )
+    assert "building the scene" not in result.stderr + result.stdout
 
 
 def test_a_folder_that_holds_a_run_is_not_overwritten(scene: Path, whole: Path) -> None:

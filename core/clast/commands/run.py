@@ -6,9 +6,11 @@ import sys
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from threading import Timer
 
 from clast.commands.live_bar import LiveBar
 from clast.config.scene import SceneConfig, load
+from clast.engine.assemble import cache_folder, wanted_cache
 from clast.errors import RunError
 from clast.forecast import duration, run_seconds, time_concerns
 from clast.forecast_results import size_concerns
@@ -57,11 +59,20 @@ def default_folder(config: SceneConfig, resume: bool) -> Path:
     return taken[-2] if resume and len(taken) > 1 else taken[-1]
 
 
+LONG_COMPILING = 120.0
+SLOW_COMPILER = (
+    f"still compiling after {LONG_COMPILING:.0f} s. A law with dictionaries, sorted() or lambdas can keep the compiler "
+    "busy for very long: write it with numbers, tuples and loops"
+)
+
+
 class Lines(Listener):
     """Progress as plain lines, for logs and pipes."""
 
     def __init__(self) -> None:
         self.last = 0.0
+        self.slow_compiler = Timer(LONG_COMPILING, self.say, [SLOW_COMPILER])
+        self.slow_compiler.daemon = True
 
     def __enter__(self) -> Lines:
         """Start."""
@@ -69,6 +80,7 @@ class Lines(Listener):
 
     def __exit__(self, *reason: object) -> None:
         """End."""
+        self.slow_compiler.cancel()
 
     def say(self, text: str) -> None:
         """Print one line at once."""
@@ -83,6 +95,10 @@ class Lines(Listener):
         self.say(
             "compiling kernels for this kind of scene, once (about half a minute; Ctrl-C is heard when it is done)"
         )
+        wanted, found = wanted_cache(), cache_folder()
+        if found != wanted:
+            self.say(f"{wanted} cannot be written, so they are kept in {found}; CLAST_CACHE names another folder")
+        self.slow_compiler.start()
 
     def started(self, simulation: Simulation) -> None:
         """Tell the size of the run."""
@@ -101,6 +117,7 @@ class Lines(Listener):
 
     def progress(self, simulation: Simulation, rate: float) -> None:
         """Tell where the run is, now and then."""
+        self.slow_compiler.cancel()
         if time.monotonic() - self.last >= PLAIN_EVERY:
             self.last = time.monotonic()
             self.say(" | ".join(status(simulation, rate)))
@@ -115,6 +132,7 @@ class Bar(LiveBar, Lines):
 
     def progress(self, simulation: Simulation, rate: float) -> None:
         """Move the bar."""
+        self.slow_compiler.cancel()
         self.move("  ".join(status(simulation, rate)), simulation.step, simulation.last_step)
 
     def writing(self, name: str) -> None:

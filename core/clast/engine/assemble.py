@@ -58,10 +58,15 @@ class Kernel:
     fresh: bool
 
 
-def cache_folder() -> Path:
-    """Return where compiled loops are kept: ``CLAST_CACHE``, or the user's cache folder, or a temporary one."""
+def wanted_cache() -> Path:
+    """Return where compiled loops should be kept: ``CLAST_CACHE``, or the user's cache folder."""
     named = os.environ.get("CLAST_CACHE")
-    base = Path(named) if named else Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "clast"
+    return Path(named) if named else Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "clast"
+
+
+def cache_folder() -> Path:
+    """Return where compiled loops are kept: where they should be, or in a temporary folder."""
+    base = wanted_cache()
     try:
         base.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=base):

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from clast.config.problems import explain
 from clast.errors import PluginError
 from clast.parts.params import Params
 
@@ -52,6 +53,6 @@ def example(model: type[P], changes: Mapping[str, Any] | None = None) -> P:
     try:
         return model.model_validate(given)
     except ValidationError as error:
-        told = error.errors()[0]
-        where = ".".join([model.__name__, *(str(each) for each in told["loc"])])
-        raise PluginError(f"{where}: {told['msg']}; given {told['input']!r}") from None
+        told = explain(error, model)[0]
+        where = ".".join([model.__name__, *(str(each) for each in told.get("loc", ()))])
+        raise PluginError(f"{where}: {told['type']}") from None

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from importlib.machinery import SourceFileLoader
 from importlib.metadata import EntryPoint, entry_points
@@ -55,6 +55,21 @@ def discover(files: Sequence[str | Path] = (), folder: Path | None = None) -> Re
     return registry
 
 
+def listing(files: Sequence[str | Path] = ()) -> Registry:
+    """Return the same for a list of what is there: plugins that want a name that is taken count as broken.
+
+    Raises
+    ------
+    PluginError
+        A file cannot be loaded, or ``CLAST_PLUGINS`` names an unknown plugin.
+    """
+    registry = Registry()
+    load_entry_points(entry_points(group=GROUP), os.environ.get(CHOICE), registry, conflicts_stop=False)
+    for file in files:
+        load_file(Path(file), registry)
+    return registry
+
+
 def parts_of(what: str | Path) -> list[Registered]:
     """Parts that a file brings, or an installed plugin or distribution, or all parts of one name.
 
@@ -86,25 +101,32 @@ def _installed(choice: str | None) -> Registry:
     return registry
 
 
-def load_entry_points(found: Iterable[EntryPoint], choice: str | None, registry: Registry) -> None:
+def load_entry_points(
+    found: Iterable[EntryPoint], choice: str | None, registry: Registry, conflicts_stop: bool = True
+) -> None:
     """Load entry points one by one into ``registry``; keep the error of each one that fails.
 
     Raises
     ------
     PluginError
-        Two distributions share an entry-point name, two plugins a part's name, or ``choice`` names no plugin.
+        ``choice`` names no plugin; and where ``conflicts_stop``: two distributions share an entry-point name, or two
+        plugins a part's name.
     """
     points = sorted(found, key=lambda point: (source_of(point).origin != OWN_DISTRIBUTION, point.name))
-    _refuse_shared_names(points)
+    shared = list(_shared_names(points))
+    if shared and conflicts_stop:
+        raise shared[0].error
+    registry.failures += shared
+    points = [point for point in points if source_of(point) not in [each.source for each in shared]]
     chosen = _chosen(points, choice)
     registry.blocked += [source_of(point) for point in points if point not in chosen]
     for point in chosen:
         source = source_of(point)
         try:
             register(point.load(), source, registry)
-        except NameTakenError:
-            raise
         except Exception as error:
+            if conflicts_stop and isinstance(error, NameTakenError):
+                raise
             registry.failures.append(Failure(source, error))
 
 
@@ -198,16 +220,18 @@ def _check_api(plugin: Any) -> None:
     )
 
 
-def _refuse_shared_names(points: Sequence[EntryPoint]) -> None:
+def _shared_names(points: Sequence[EntryPoint]) -> Iterator[Failure]:
+    """Yield a failure for each plugin whose name another distribution's plugin has."""
     owners: dict[str, Source] = {}
     for point in points:
         source = source_of(point)
         other = owners.setdefault(point.name, source)
         if other != source:
-            raise PluginError(
+            text = (
                 f"two distributions bring a plugin named {point.name!r}: {other} and {source}; "
                 "uninstall one of them, or rename its entry point"
             )
+            yield Failure(source, PluginError(text))
 
 
 def _chosen(points: Sequence[EntryPoint], choice: str | None) -> list[EntryPoint]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
 from clast.engine.cache_lines import on_line, on_lines
+from clast.engine.parts_used import changed, parts_of
 from clast.engine.timeline import Timeline
 from clast.errors import RunError, one_line
 from clast.results.room import in_memory
@@ -74,17 +75,18 @@ def _fill(file: Any, simulation: Simulation, notes: Mapping[str, Any]) -> None:
 
 
 def refuse_other_scene(folder: Path, config: SceneConfig) -> None:
-    """Refuse to resume a run with another scene, before anything is packed or compiled.
+    """Refuse to resume a run with another scene or edited parts, before anything is packed or compiled.
 
     Raises
     ------
     RunError
-        If the last checkpoint that can be read belongs to another scene.
+        If the last checkpoint that can be read belongs to another scene, or a part has changed since.
     """
     for path in _found(folder):
         with suppress(OSError, KeyError, TypeError, ValueError, RuntimeError):
-            scene = _read(path)[1]["scene"]
-            _refuse_differing(path, scene, _plain(config))
+            about = _read(path)[1]
+            _refuse_differing(path, about["scene"], _plain(config))
+            _refuse_changed(path, changed(about.get("parts", {}), parts_of(config)))
             return
 
 
@@ -140,6 +142,7 @@ def identity(simulation: Simulation) -> dict[str, Any]:
     return {
         "schema": 1,
         "scene": _plain(simulation.config),
+        "parts": simulation.parts,
         "kernel": simulation.kernel.digest,
         "dt": simulation.timeline.spans[0].dt,
         "timeline": simulation.timeline.spans,
@@ -179,9 +182,14 @@ def _read(path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
 def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
     _refuse_differing(path, old["scene"], new["scene"])
     if old["kernel"] != new["kernel"] or old["dt"] != new["dt"]:
+        _refuse_changed(path, changed(old.get("parts", {}), new["parts"]) or ["other sources of Clast"])
+
+
+def _refuse_changed(path: Path, edited: list[str]) -> None:
+    if edited:
         raise RunError(
-            f"{path}: was computed by other sources of the laws or of Clast, so going on would mix two physics; "
-            "start anew in another folder with -o"
+            f"{path}: was computed before this changed: {', '.join(edited)}. Going on would mix two physics; start "
+            "anew in another folder with -o"
         )
 
 

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.mass_scaling import added_mass
-from clast.engine.sources import source_files
 from clast.engine.tables import crack_rows
 from clast.engine.time_step import ruling
 from clast.granular.damage import grain_results
@@ -29,18 +28,15 @@ from clast.simulation import Simulation
 FILE = "summary.json"
 LIBRARIES = ("numpy", "numba", "h5py", "scipy")
 Curves = dict[str, NDArray[np.float64]]
-Parts = dict[str, dict[str, str]]
 
 
-def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: float) -> dict[str, Any]:
+def summarise(simulation: Simulation, curves: Curves, wall_time: float) -> dict[str, Any]:
     """Return the summary of a run.
 
     Parameters
     ----------
     simulation : Simulation
         At its end.
-    parts : mapping
-        What :func:`parts` told when the run began: files may be edited meanwhile.
     curves : mapping of (s,) arrays
         The sampled curves.
     wall_time : float
@@ -58,7 +54,7 @@ def summarise(simulation: Simulation, parts: Parts, curves: Curves, wall_time: f
     return {
         "name": simulation.config.name,
         "versions": versions(),
-        "parts": parts,
+        "parts": simulation.parts,
         "kernel": simulation.kernel.digest,
         "counts": {
             "particles": len(scene.radius),
@@ -121,26 +117,6 @@ def versions() -> dict[str, str]:
     from clast import __version__
 
     return {"clast": __version__, "python": platform.python_version()} | {name: version(name) for name in LIBRARIES}
-
-
-def parts(simulation: Simulation) -> Parts:
-    """Return every part a scene uses, with where it comes from and a digest of its source files."""
-    return {
-        f"{chosen.kind}.{chosen.name}": {"source": str(chosen.source), "digest": part_digest(chosen.part)}
-        for chosen in simulation.config.chosen
-    }
-
-
-def part_digest(part: Any) -> str:
-    """Return a digest of the source files of all functions a part consists of."""
-    import hashlib
-    from types import FunctionType
-
-    functions = [f for f in vars(part).values() if isinstance(f, FunctionType)]
-    told = hashlib.sha256()
-    for file in sorted(source_files(functions)):
-        told.update(file.read_bytes())
-    return told.hexdigest()[:24]
 
 
 def limits_table(simulation: Simulation) -> dict[str, float | None]:

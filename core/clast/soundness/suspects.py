@@ -8,9 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
+from clast.config.scene import SceneConfig
 from clast.engine.state import World
 from clast.engine.tables import failure_index, intact
+from clast.plugins.blame import OWN_DISTRIBUTION
 from clast.scene.scene import Scene
+
+LAWS = ("bond_model", "bond_kinematics", "contact_law", "rolling_resistance", "body_force", "damping", "integrator")
+"""Kinds of parts that give forces, or move by them."""
 
 
 def suspects(world: World, scene: Scene, lost: NDArray[np.bool_]) -> str:
@@ -42,6 +47,15 @@ def suspects(world: World, scene: Scene, lost: NDArray[np.bool_]) -> str:
         found.append(told(config.contacts.law))
     found += [told(force) for force in config.body_forces]
     return f"look at {' and '.join(found)}" if found else "look at the loads on it"
+
+
+def foreign_laws(config: SceneConfig) -> str:
+    """Return the advice to try the laws that are not Clast's own; nothing where there are none."""
+    laws = [each for each in config.chosen if each.kind in LAWS and each.source.origin != OWN_DISTRIBUTION]
+    if not laws:
+        return ""
+    named = ", ".join(told(each) for each in laws)
+    return f"; or a law gives out what it should not: try {named} with 'clast plugins check'"
 
 
 def told(chosen: Chosen) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from clast import Simulation, load
+from clast.commands.run import Lines
 from clast.engine.assemble import cache_folder
 from clast.engine.entry import alone
 from tests.scenes import write
@@ -105,6 +106,27 @@ def test_a_cache_that_cannot_be_written_is_replaced_by_a_temporary_one(
     assert not Simulation(load(tmp_path / "scene.yaml"), compiling=lambda: told.append(True)).kernel.fresh
     assert told == [False]
     assert any(kept.glob("clast_kernel_*"))
+
+
+def test_a_user_is_told_of_another_cache_and_of_a_compiler_that_takes_long(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setenv("CLAST_CACHE", str(write(tmp_path, FALL) / "loops"))
+    monkeypatch.setattr("clast.commands.run.LONG_COMPILING", 0.01)
+    with Lines() as lines:
+        lines.compiling()
+        lines.slow_compiler.join()
+    told = capsys.readouterr().out
+    assert f"loops cannot be written, so they are kept in {cache_folder()}; CLAST_CACHE names another" in told
+    assert "still compiling after" in told
+
+
+def test_a_scene_that_compiles_soon_says_nothing_of_the_compiler(capsys: pytest.CaptureFixture[str]) -> None:
+    with Lines() as lines:
+        lines.compiling()
+    lines.slow_compiler.join()
+    assert "still compiling" not in capsys.readouterr().out
 
 
 def test_a_temporary_cache_open_to_others_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

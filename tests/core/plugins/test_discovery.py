@@ -78,6 +78,16 @@ def test_two_plugins_with_one_part_are_refused_at_once():
         loaded(point("a", "plane"), point("b", "plane"))
 
 
+def test_a_list_tells_of_conflicts_as_of_broken_plugins_and_lists_all_others():
+    registry = Registry()
+    points = [point("a", "plane"), point("b", "plane"), point("c", "x", dist="d1"), point("c", "y", dist="d2")]
+    load_entry_points(points, None, registry, conflicts_stop=False)
+    assert registry.names("wall") == ["plane", "x"]
+    assert [each.source.plugin for each in registry.failures] == ["c", "b"]
+    assert "two plugins bring a wall named 'plane'" in str(registry.failures[1])
+    assert "two distributions bring a plugin named 'c': d1 2.0 and d2 2.0" in str(registry.failures[0])
+
+
 @pytest.mark.parametrize(("api", "said"), [(2, "written for CLAST_API 2"), (None, "add 'CLAST_API = 1'")])
 def test_a_plugin_for_another_api_is_not_loaded(api, said):
     registry = loaded(point("a", "plane", api=api))
