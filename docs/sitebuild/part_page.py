@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from clast.config.describe import parameters
@@ -13,6 +12,7 @@ from clast.engine.records import fields
 from clast.plugins.registry import Registered
 from sitebuild import ROOT
 from sitebuild.docstring import markdown, plain, sections
+from sitebuild.scenes import scenes_with
 from sitebuild.snippet import snippet
 
 
@@ -100,8 +100,13 @@ def _modes(entry: Registered) -> list[str]:
 
 
 def _ready_scene(entry: Registered) -> list[str]:
-    scene = Path("configs/parts") / entry.kind / f"{entry.name}.yaml"
-    return [f"A whole scene that shows it: [{scene}](../../{scene})."] if (ROOT / scene).is_file() else []
+    """Return a link to the scene that shows a part, or to others that use it; writers are chosen for any scene."""
+    scenes = [file.relative_to(ROOT).as_posix() for file in scenes_with(entry)]
+    if not scenes or entry.kind == "writer":
+        return []
+    linked = ", ".join(f"[{scene}](../../{scene})" for scene in scenes)
+    shows = "A whole scene that shows it" if scenes[0].startswith("configs/parts/") else "Scenes that use it"
+    return [f"{shows}: {linked}."]
 
 
 def _file(entry: Registered) -> str:

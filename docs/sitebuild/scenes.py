@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import groupby, takewhile
 from pathlib import Path
 
+from clast import load
+from clast.config.yaml_loader import read_document
+from clast.plugins.registry import Registered
 from sitebuild import ROOT
 
 CONFIGS = ROOT / "configs"
@@ -13,6 +17,25 @@ CONFIGS = ROOT / "configs"
 def scene_files() -> list[Path]:
     """Return all scenes, studies and calibrations in configs/, those of one folder together."""
     return sorted(CONFIGS.rglob("*.yaml"), key=lambda file: (file.parent, file.name))
+
+
+def scenes_with(entry: Registered) -> list[Path]:
+    """Return the scene made to show a part; where there is none, two ready ones that use it."""
+    own = CONFIGS / "parts" / entry.kind / f"{entry.name}.yaml"
+    return [own] if own.is_file() else _users().get((entry.kind, entry.name), [])[:2]
+
+
+@lru_cache(maxsize=1)
+def _users() -> dict[tuple[str, str], list[Path]]:
+    """Return the ready scenes that use each part, those with the shortest names first: they are the plainest."""
+    found: dict[tuple[str, str], list[Path]] = {}
+    for file in sorted(
+        scene_files(), key=lambda file: (len(file.relative_to(CONFIGS).parts), len(file.name), file.name)
+    ):
+        if "materials" in read_document(file).data:
+            for part in {(chosen.kind, chosen.name) for chosen in load(file).chosen}:
+                found.setdefault(part, []).append(file)
+    return found
 
 
 def scenes_page() -> str:

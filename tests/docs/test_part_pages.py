@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import pytest
 import yaml
 
+from clast import load
 from clast.config.describe import parameters
 from clast.engine.records import fields
 from clast.parts.examples import example
@@ -15,7 +16,7 @@ from clast.parts.params import Params
 from clast.plugins.discovery import discover
 from clast.testing.bonds import bond, stretched
 from clast.verification.closed_forms.hertz import HertzImpact
-from sitebuild import DOCS
+from sitebuild import DOCS, ROOT
 from sitebuild.curves import drawing
 from sitebuild.curves.bond_model import loading_cycle, sheared
 from sitebuild.curves.contact_law import GLASS, MASS, SPEED, Law, R, impact, sideways
@@ -66,6 +67,15 @@ def test_a_page_shows_yaml_that_names_the_part_and_the_file_it_is_in(entry):
     assert f"type: {entry.name}" in written
     assert isinstance(yaml.safe_load(written), dict)
     assert f'??? note "{entry.file.name}"' in page
+
+
+def test_every_part_of_clast_s_own_has_a_whole_scene():
+    for entry in REGISTRY:
+        if entry.source.origin == "clast" and entry.kind != "writer":
+            linked = re.findall(r"\[(configs/[^]]*)\]\(\.\./\.\./\1\)", part_page(entry, None))
+            assert linked, f"no ready scene uses the {entry.kind} {entry.name}"
+            for scene in linked:
+                assert (entry.kind, entry.name) in {(each.kind, each.name) for each in load(ROOT / scene).chosen}
 
 
 def test_every_part_that_is_registered_is_listed_with_a_link_to_its_page():
