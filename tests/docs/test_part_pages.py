@@ -5,6 +5,7 @@ from dataclasses import replace
 from math import log10
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 import yaml
 
@@ -17,7 +18,7 @@ from clast.plugins.discovery import discover
 from clast.testing.bonds import bond, stretched
 from clast.verification.closed_forms.hertz import HertzImpact
 from sitebuild import DOCS, ROOT
-from sitebuild.curves import drawing
+from sitebuild.curves import damping, drawing, rolling_resistance
 from sitebuild.curves.bond_model import loading_cycle, sheared
 from sitebuild.curves.contact_law import GLASS, MASS, SPEED, Law, R, impact, sideways
 from sitebuild.curves.integrator import error
@@ -94,7 +95,10 @@ def test_a_picture_stands_on_the_page_or_a_sentence_in_its_place():
     assert "state no examples" in part_page(entry, Picture("", drawn.caption))
 
 
-@pytest.mark.parametrize("kind", ["bond_model", "contact_law", "integrator", "motion", "wall"])
+KINDS_DRAWN = ["bond_model", "contact_law", "damping", "integrator", "motion", "rolling_resistance", "wall"]
+
+
+@pytest.mark.parametrize("kind", KINDS_DRAWN)
 def test_every_part_of_clast_s_own_is_drawn(kind):
     for entry in REGISTRY:
         if entry.kind == kind and entry.source.origin == "clast":
@@ -127,6 +131,25 @@ def test_a_drawn_impact_is_hertz_s_without_damping_and_keeps_the_restitution_wit
     assert elastic.force.max() == pytest.approx(closed.peak_force, rel=1e-4)
     assert elastic.approach[-1] == pytest.approx(-SPEED, rel=1e-3)
     assert impact(Law(entry.part, params)).approach[-1] == pytest.approx(-GLASS.restitution * SPEED, rel=0.01)
+
+
+def test_a_drawn_rolling_ends_at_the_limit_of_friction_and_the_constant_torque_is_there_at_once():
+    limit = 0.05 * rolling_resistance.PRESSED.limit * 0.5 * rolling_resistance.RADIUS
+    for name in ("constant_torque", "elastic_plastic"):
+        part = REGISTRY.get("rolling_resistance", name).part
+        angle, torque = rolling_resistance.rolled(part, part.Params())
+        assert np.abs(torque).max() == pytest.approx(limit, rel=1e-9)
+        early = torque[np.argmax(angle > 0.01)]
+        assert (early == pytest.approx(limit, rel=1e-9)) == (name == "constant_torque")
+
+
+def test_a_drawn_damping_only_takes():
+    part = REGISTRY.get("damping", "local").part
+    time, place = damping.let_go(part, part.Params())
+    peaks = place[1:-1][(place[1:-1] > place[:-2]) & (place[1:-1] > place[2:])]
+    assert (np.diff(peaks) < 0.0).all()
+    assert abs(place[-1]) < 1e-3
+    assert time[-1] == damping.PERIODS
 
 
 def test_what_is_drawn_sideways_ends_at_coulomb_s_limit():

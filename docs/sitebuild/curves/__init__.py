@@ -13,7 +13,7 @@ from clast.errors import PluginError
 from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.plugins.registry import Registered
-from sitebuild.curves import bond_model, contact_law, generator, integrator, motion, wall
+from sitebuild.curves import bond_model, contact_law, damping, generator, integrator, motion, rolling_resistance, wall
 
 
 class Drawing(NamedTuple):
@@ -26,9 +26,11 @@ class Drawing(NamedTuple):
 ARTISTS: dict[str, Callable[[Any, Params, Figure], str]] = {
     "bond_model": bond_model.draw,
     "contact_law": contact_law.draw,
+    "damping": damping.draw,
     "generator": generator.draw,
     "integrator": integrator.draw,
     "motion": motion.draw,
+    "rolling_resistance": rolling_resistance.draw,
     "wall": wall.draw,
 }
 """By kind: draws a part with its example parameters into a figure, and returns the caption."""
