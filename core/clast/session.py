@@ -103,6 +103,22 @@ def run_scene(
         raise RunInterruptedError(stop.number, advice) from None
 
 
+def refuse_passed_end(simulation: Simulation) -> None:
+    """Refuse to go on with a run that is beyond its end, as after the end was changed.
+
+    Raises
+    ------
+    RunError
+        If it is; with what ends it where it is.
+    """
+    if simulation.step > simulation.last_step:
+        place = simulation.config.document.where(("time", "end"))
+        raise RunError(
+            f"{place}: time.end: the run is at step {simulation.step} already, and would end at step "
+            f"{simulation.last_step}; to end it where it is add --set 'time.end={{steps: {simulation.step}}}'"
+        )
+
+
 class _Session:
     """The step loop with its observers, and what follows it."""
 
@@ -119,10 +135,12 @@ class _Session:
         self.frames = Frames(simulation, self.store)
         if resume:
             self.store.cut(notes["lengths"])
+            self.samples.every, self.frames.every = notes.get("every", (self.samples.every, self.frames.every))
             self.samples.previous_step = int(notes["previous_sample"])
             self.samples.stops.recall(self.store.curves())
             if notes.get("ended"):
                 simulation.end_here(Ended(*notes["ended"]))
+            refuse_passed_end(simulation)
         with whole_file(folder / CONFIG_FILE) as draft:
             draft.write_text(dump_yaml(simulation.config.resolved()), encoding="utf-8")
 
@@ -141,11 +159,13 @@ class _Session:
             try:
                 simulation.advance_to(first)  # compiles
                 if first == 0:
-                    self._look_at_start()
+                    self._look()
                     self.save()
                 listener.started(simulation)
                 self.begun = time.perf_counter()
                 simulation.run([self.samples, self.frames, watch])
+                if self.samples.previous_step < simulation.step:  # resumed to end where it was
+                    self._look()
                 self.seconds_before, self.begun = self.seconds, None
                 self.save()
             except BaseException as error:
@@ -163,7 +183,7 @@ class _Session:
                 self.store.keep_cracks(self.simulation)
                 self.store.close(complete=False)
 
-    def _look_at_start(self) -> None:
+    def _look(self) -> None:
         self.samples.observe(self.simulation)
         if self.frames.every:
             self.frames.observe(self.simulation)
@@ -180,6 +200,7 @@ class _Session:
         notes = {
             "lengths": self.store.lengths(),
             "previous_sample": self.samples.previous_step,
+            "every": [self.samples.every, self.frames.every],
             "seconds": self.seconds,
             "ended": self.simulation.ended,
         }

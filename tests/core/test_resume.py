@@ -123,6 +123,41 @@ def test_a_stopped_run_resumes_to_the_same_bytes(
     assert summary["steps_per_s"] == summary["steps"] / summary["wall_time_s"]
 
 
+def test_a_finished_run_goes_on_to_a_later_end_as_if_it_had_never_ended(
+    scene: Path, whole: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "longer"
+    assert run(scene, folder, "--set", "time.end.strain=0.15").returncode == 0
+    resumed = run(scene, folder, "--resume")
+    assert resumed.returncode == 0, resumed.stderr
+    assert arrays(folder / "checkpoint.h5") == arrays(whole / "checkpoint.h5")
+    with h5py.File(folder / "results.h5") as longer, h5py.File(whole / "results.h5") as other:
+        strain = longer["curves/strain"][:]
+        assert len(strain) == pytest.approx(120, abs=2)  # the spacing that it began with
+        assert strain[-1] == other["curves/strain"][-1]
+        assert (longer["cracks/bond"][:] == other["cracks/bond"][:]).all()
+    assert (
+        json.loads((folder / "summary.json").read_text())["steps"]
+        == json.loads((whole / "summary.json").read_text())["steps"]
+    )
+
+
+def test_a_run_can_be_ended_where_it_stopped_but_not_before(scene: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "shorter"
+    assert start_and_stop(scene, folder, signal.SIGINT) == 130
+    early = run(scene, folder, "--resume", "--set", "time.end.strain=0.001")
+    assert early.returncode == 1
+    (step,) = re.findall(
+        r"time.end: the run is at step (\d+) already, and would end at step \d+; to end it", early.stderr
+    )
+    assert f"--set 'time.end={{steps: {step}}}'" in early.stderr
+    ended = run(scene, folder, "--resume", "--set", f"time.end={{steps: {step}}}")
+    assert ended.returncode == 0, ended.stderr
+    assert json.loads((folder / "summary.json").read_text())["steps"] == int(step)
+    with h5py.File(folder / "results.h5") as file:
+        assert file["frames/step"][-1] == int(step)
+
+
 def test_another_scene_is_not_resumed(scene: Path, whole: Path) -> None:
     refused = run(scene, whole, "--resume", "--set", "bonds.model.yield_stress=3 MPa")
     assert refused.returncode == 1

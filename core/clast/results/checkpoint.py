@@ -24,7 +24,7 @@ from clast.soundness.energy import Balance
 FILE = "checkpoint.h5"
 PREVIOUS = "checkpoint.previous.h5"
 DERIVED = ("numbers", "scratch")
-MAY_DIFFER = ("output.checkpoint", "output.writers", "reference", "description")
+MAY_DIFFER = ("output.checkpoint", "output.writers", "reference", "description", "time.end")
 
 
 def save(folder: Path, simulation: Simulation, notes: Mapping[str, Any]) -> Path:
