@@ -110,14 +110,16 @@ def _measured(row: Row, expectation: Expectation) -> bool:
     return row.measures.get(expectation.measure) is not None
 
 
-def _less(a: list[float], b: list[float], level: float) -> bool:
-    """Tell whether numbers are smaller than others, by more than scatter explains."""
+def _less(a: list[float], b: list[float], level: float, paired: bool = False) -> bool:
+    """Tell whether numbers are smaller than others, by more than scatter explains: one by one, or as a whole."""
     if len(a) < 2 or len(b) < 2:
         return False
     if np.ptp(a) == 0.0 and np.ptp(b) == 0.0:
         return a[0] < b[0]
-    from scipy.stats import ttest_ind
+    from scipy.stats import ttest_ind, ttest_rel
 
+    if paired:
+        return bool(ttest_rel(a, b, alternative="less").pvalue < level)
     return bool(ttest_ind(a, b, equal_var=False, alternative="less").pvalue < level)
 
 
@@ -199,16 +201,38 @@ def equals(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple
 
 
 def larger(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[str, str]:
-    """Judge whether one selection of runs lies above, or below, another one: Welch's test."""
-    first = values_of(rows, expectation.measure)
-    second = values_of(chosen(every, expectation.than), expectation.measure)
+    """Judge whether one selection of runs lies above, or below, another one: in pairs, or by Welch's test.
+
+    Runs of one repeat share their seeds; so where both selections have one run of every repeat, their differences are
+    judged by Student's test, which what all beds or grains of a repeat have in common does not blur.
+    """
+    others = chosen(every, expectation.than)
+    first, second = values_of(rows, expectation.measure), values_of(others, expectation.measure)
     if not first or not second:
         return OPEN, "runs to compare are missing"
     told = f"{_told(first)} against {_told(second)} ({expectation.measure})"
-    low, high = (second, first) if expectation.check == "larger" else (first, second)
-    if _less(low, high, LEVEL):
-        return REPRODUCED, told
-    return (NOT_REPRODUCED if _less(high, low, LEVEL) else OPEN), told
+    above = 1.0 if expectation.check == "larger" else -1.0
+    pairs = _pairs(rows, others, expectation.measure)
+    if pairs is not None:
+        apart = [above * (x - y) for x, y in pairs]
+        zero = [0.0] * len(apart)
+        found, other = _less(zero, apart, LEVEL, paired=True), _less(apart, zero, LEVEL, paired=True)
+        told += f"; differences in pairs {_told([x - y for x, y in pairs])}"
+    else:
+        low, high = (second, first) if above > 0.0 else (first, second)
+        found, other = _less(low, high, LEVEL), _less(high, low, LEVEL)
+    return (REPRODUCED if found else NOT_REPRODUCED if other else OPEN), told
+
+
+def _pairs(rows: list[Row], others: list[Row], measure: str) -> list[tuple[float, float]] | None:
+    """Return the values of two selections for each repeat, None where one of them has not one run of each."""
+    first, second = (
+        {row.task.repeat: value for row in each if (value := row.measures.get(measure)) is not None}
+        for each in (rows, others)
+    )
+    if len(first) < 2 or first.keys() != second.keys() or (len(first), len(second)) != (len(rows), len(others)):
+        return None
+    return [(first[repeat], second[repeat]) for repeat in sorted(first)]
 
 
 def _told(sample: list[float]) -> str:

@@ -80,6 +80,20 @@ def test_points_are_compared_within_repeats_which_share_their_seeds() -> None:
     assert verdict(Table(rows), check="same", measure="m", within=0.05) == NOT_REPRODUCED
 
 
+def test_two_points_of_the_same_repeats_are_compared_in_pairs() -> None:
+    """What all repeats have in common is no scatter; a repeat that is missing leaves both samples as they are."""
+    rows = []
+    for k, x in enumerate((1.0, 2.0)):
+        for repeat, noise in enumerate((0.0, 0.03, -0.03)):
+            task = Task(f"{x}-{repeat}", "", k, repeat, (Setting("x", str(x), x, {}),), "")
+            rows.append(Row(task, "done", "", {"m": 10.0 * (repeat + 1) + x + noise * x}))
+    where = {"where": {"x": 2.0}, "than": {"x": 1.0}, "measure": "m"}
+    assert verdict(Table(rows), check="larger", **where) == REPRODUCED
+    assert verdict(Table(rows), check="smaller", **where) == NOT_REPRODUCED
+    assert verdict(Table(rows[:-1]), check="larger", **where) == OPEN
+    assert "differences in pairs 1 ± 0.03 (3 runs)" in evidence(Table(rows), check="larger", **where)
+
+
 def test_a_value() -> None:
     near = {"check": "equals", "measure": "m", "within": 0.1}
     assert verdict(table(lambda x: 5.0, 0.2), value=5.2, **near) == REPRODUCED
