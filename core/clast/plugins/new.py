@@ -7,8 +7,8 @@ from keyword import iskeyword
 from pathlib import Path
 
 from clast.errors import PluginError
+from clast.plugins.declaration import NAME, NAME_RULE
 from clast.plugins.discovery import discover
-from clast.plugins.registry import NAME, NAME_RULE
 
 STARTER = "starter"
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from clast.errors import PluginError, one_line
 from clast.parts.params import Params
 from clast.plugins.blame import plugin_line
 from clast.plugins.conflict import conflict
+from clast.plugins.declaration import check_declaration
 from clast.plugins.nearest import suggestion
 
 if TYPE_CHECKING:
@@ -44,8 +44,6 @@ KINDS = (
     "stop",
     "writer",
 )
-NAME = re.compile(r"[a-z][a-z0-9_]*")
-NAME_RULE = "small letters, digits and _ only, a letter first"
 
 
 class NameTakenError(PluginError):
@@ -226,7 +224,9 @@ class Registry:
         PluginError
             The name is taken or badly spelt, or the part lacks ``summary`` or ``Params``.
         """
-        self._check(kind, name, part)
+        if kind not in KINDS:
+            raise PluginError(f"{kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
+        check_declaration(kind, name, part)
         taken = self._parts.get((kind, name))
         if taken is not None:
             raise NameTakenError(conflict(taken, self._source))
@@ -248,6 +248,10 @@ class Registry:
     def names(self, kind: str) -> list[str]:
         """Names of all parts of a kind, sorted."""
         return sorted(name for of_kind, name in self._parts if of_kind == kind)
+
+    def __getattr__(self, name: str) -> Any:
+        """Suggest the kind of part that a plugin may have meant."""
+        raise AttributeError(f"{name!r} is not a kind of part; {suggestion(name, KINDS)}")
 
     def __iter__(self) -> Iterator[Registered]:
         """All parts, in the order of the kinds and then of the names."""
@@ -273,17 +277,6 @@ class Registry:
             raise
         finally:
             self._source = before
-
-    def _check(self, kind: str, name: str, part: Part) -> None:
-        if kind not in KINDS:
-            raise PluginError(f"{kind!r} is not a kind of part; {suggestion(kind, KINDS)}")
-        if not NAME.fullmatch(name):
-            raise PluginError(f"{name!r} is not a name for a {kind}: {NAME_RULE}")
-        declared = getattr(part, "Params", None)
-        if not (isinstance(declared, type) and issubclass(declared, Params)):
-            raise PluginError(f"{kind} {name!r} needs 'Params', a subclass of clast.parts.params.Params")
-        if not isinstance(getattr(part, "summary", None), str):
-            raise PluginError(f"{kind} {name!r} needs 'summary', one line of text")
 
     def _missing(self, kind: str, name: str) -> str:
         message = f"no {kind.replace('_', ' ')} is named {name!r}; {suggestion(name, self.names(kind))}"

@@ -6,6 +6,7 @@ import pytest
 
 from clast.errors import PluginError
 from clast.parts.params import Params
+from clast.parts.wall import BodyForce
 from clast.plugins.registry import KINDS, Registry, Source
 
 
@@ -64,6 +65,14 @@ def test_a_part_without_params_or_summary_is_refused():
         Registry().wall("plane", SimpleNamespace(summary="x", Params=dict))
     with pytest.raises(PluginError, match="needs 'summary'"):
         Registry().wall("plane", SimpleNamespace(Params=Params))
+
+
+def test_what_should_be_a_function_and_a_kind_that_does_not_exist_are_told():
+    force = BodyForce(summary="x", Params=Params, Numbers=tuple, numbers=tuple, acceleration=9.81)
+    with pytest.raises(PluginError, match=r"body_force 'weight' needs 'acceleration' to be a function; given 9.81"):
+        Registry().body_force("weight", force)
+    with pytest.raises(AttributeError, match="'bodyforce' is not a kind of part; did you mean 'body_force'"):
+        Registry().bodyforce("weight", force)
 
 
 def test_a_copy_is_independent():
