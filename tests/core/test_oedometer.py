@@ -230,7 +230,7 @@ def test_a_piston_that_meets_nothing_is_told_in_place_of_a_stress_of_zero(tmp_pa
 
 def test_nothing_is_caught_or_slips_past_at_the_rim_of_a_disc_as_wide_as_the_tube() -> None:
     scene = bed()
-    scene["walls"]["piston"]["radius"] = R
+    scene["walls"]["piston"] |= {"type": "disc", "radius": R}
     simulation = Simulation(from_mapping(scene))
     simulation.advance_to(40_000)
     world = simulation.world
@@ -292,7 +292,7 @@ def test_a_section_is_given_once(given: dict[str, float]) -> None:
 )
 def test_a_plate_that_particles_slip_past_is_pointed_out(radius: float | None, said: str | None) -> None:
     scene = bed()
-    scene["walls"]["piston"]["radius"] = radius
+    scene["walls"]["piston"] |= {} if radius is None else {"type": "disc", "radius": radius}
     told = narrow_plates(from_mapping(scene), 0.2e-3)
     assert [re.match(said or "", each) is not None for each in told] == [True] * (said is not None)
 

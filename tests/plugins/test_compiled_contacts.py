@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
 from clast.parts.contact_law import Touch
 from clast_plugins.contact_laws.hertz_mindlin import History, energy, load
-from clast_plugins.walls import cylinder, plane
+from clast_plugins.walls import cylinder, disc, plane
 from tests.support.bits import assert_same_bits, random_directions
 from tests.support.contacts import contact
 
@@ -68,7 +66,7 @@ def test_the_contact_law_gives_the_same_bits(options):
 def walls_sweep(points, plate, infinite, tube, out):
     for k in range(len(points)):
         x = (points[k, 0], points[k, 1], points[k, 2])
-        a, b, c = plane.nearest(plate, x), plane.nearest(infinite, x), cylinder.nearest(tube, x)
+        a, b, c = disc.nearest(plate, x), plane.nearest(infinite, x), cylinder.nearest(tube, x)
         out[k, 0], out[k, 1], out[k, 2] = a.distance, b.distance, c.distance
         out[k, 3], out[k, 4], out[k, 5] = a.normal
         out[k, 6], out[k, 7], out[k, 8] = b.normal
@@ -79,6 +77,8 @@ def test_walls_give_the_same_bits():
     points = np.random.default_rng(12).normal(size=(COUNT, 3))
     points[0] = 0.0
     n = (0.6, 0.0, 0.8)
-    plate, infinite = plane.Shape((0.0, 0.0, 0.0), n, 0.7), plane.Shape((0.1, 0.2, 0.3), n, math.inf)
+    plate, infinite = disc.Shape((0.0, 0.0, 0.0), n, 0.7), plane.Shape((0.1, 0.2, 0.3), n)
     tube = cylinder.Shape((0.0, 0.0, 0.0), n, 1.1, 1.0)
-    assert_same_bits(walls_sweep, [plane.nearest, cylinder.nearest], COUNT, 12, points, plate, infinite, tube)
+    assert_same_bits(
+        walls_sweep, [disc.nearest, plane.nearest, cylinder.nearest], COUNT, 12, points, plate, infinite, tube
+    )

@@ -15,6 +15,7 @@ from clast.maths.vec3 import ZERO, Vec, across, norm, scale, sub
 from clast.parts.params import Params
 from clast.parts.wall import Nearest, Wall
 from clast.plugins.registry import Registry
+from clast_plugins.walls.round_mesh import tube_mesh
 
 
 class Cylinder(Params):
@@ -70,14 +71,7 @@ def section(params: Cylinder) -> float:
 
 def mesh(params: Cylinder, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return a tube of 96 triangles, ``size`` long on either side of the point."""
-    a = np.asarray(shape(params).axis)
-    e1 = np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
-    e1 /= np.linalg.norm(e1)
-    angle = 2.0 * np.pi * np.arange(48) / 48
-    ring = params.radius * (np.outer(np.cos(angle), e1) + np.outer(np.sin(angle), np.cross(a, e1)))
-    points = np.asarray(params.point) + np.vstack([ring - size * a, ring + size * a])
-    k, after = np.arange(48), (np.arange(48) + 1) % 48
-    return points, np.vstack([np.column_stack([k, after, k + 48]), np.column_stack([after, after + 48, k + 48])])
+    return tube_mesh(params.point, shape(params).axis, params.radius, size)
 
 
 @hookimpl

@@ -14,8 +14,8 @@ from clast.plugins.registry import Registry, Source
 def registry() -> Registry:
     fakes = Registry()
     with fakes.registering(Source("fakes", "fake-distribution", "1.2")):
-        fakes.generator("ball", Generator("A ball.", Ball, None))
-        fakes.generator("explicit", Generator("Written.", Explicit, None))
+        fakes.generator("ball", Generator("A ball.", Ball, generate=print))
+        fakes.generator("explicit", Generator("Written.", Explicit, generate=print))
         for add, name, declared in [
             (fakes.bond_model, "elastic", Elastic),
             (fakes.bond_kinematics, "total", Nothing),

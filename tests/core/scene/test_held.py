@@ -38,7 +38,11 @@ def told(walls: dict[str, Any], **more: Any) -> list[str]:
         ({"tube": TUBE, "piston": PISTON | {"motion": DOWN}}, {}, "nothing holds the particles against walls.piston"),
         ({"tube": TUBE, "piston": PISTON | {"motion": RAMP}}, {}, "nothing holds the particles against walls.piston"),
         ({"tube": TUBE, "piston": PISTON | {"motion": SERVO}}, {}, "nothing holds the particles against walls.piston"),
-        ({"tube": TUBE, "bottom": BOTTOM | {"radius": 1e-3}}, {"body_forces": GRAVITY}, "nothing holds the particles"),
+        (
+            {"tube": TUBE, "bottom": BOTTOM | {"type": "disc", "radius": 1e-3}},
+            {"body_forces": GRAVITY},
+            "nothing holds the particles",
+        ),
     ],
 )
 def test_a_tube_without_a_bottom_is_pointed_out(walls: dict[str, Any], more: dict[str, Any], sentence: str) -> None:

@@ -25,7 +25,7 @@ particles:
 contacts: {law: hertz_mindlin, start_overlap: 1e9, pairs: {default: {restitution: 1}}}
 walls:
   floor: {type: plane, material: glass, point: [0, 0, -0.03], normal: [0, 0.1, 1]}
-  plate: {type: plane, material: glass, point: [0.01, 0, 0.02], normal: [0, 0, -1], radius: 0.02}
+  plate: {type: disc, material: glass, point: [0.01, 0, 0.02], normal: [0, 0, -1], radius: 0.02}
   tube: {type: cylinder, material: glass, point: [0, 0, 0], axis: [0, 0, 1], radius: 0.04}
 time: {end: {steps: 1}}
 """

@@ -61,7 +61,7 @@ def test_more_than_fits_is_refused_by_a_run_as_by_a_check(change: str) -> None:
             ("walls.tube.radius=8 mm", "compression.diameter=16 mm"),
             "no wall stands at its side: the nearest is 1 mm from",
         ),
-        (("walls.bottom.radius=5 mm",), "no wall stands at its bottom: the nearest is "),
+        (("walls.bottom.type=disc", "walls.bottom.radius=5 mm"), "no wall stands at its bottom: the nearest is "),
         (
             ("walls.bottom.point=[0, 0, -1 mm]", "compression.height=9.4 mm"),
             "no wall stands at its bottom: the nearest is 1 mm from",

@@ -19,7 +19,7 @@ def variants() -> list[tuple[str, dict[str, object]]]:
     for name in discover().names("wall"):
         sides = ("inside", "outside") if "side" in part(name).Params.model_fields else (None,)
         found += [(name, {} if side is None else {"side": side}) for side in sides]
-    return [*found, ("plane", {"radius": 0.01})]
+    return found
 
 
 each = pytest.mark.parametrize(("name", "changes"), variants(), ids=lambda value: str(value))

@@ -1,4 +1,4 @@
-"""Walls: the nearest point of a plane, a plate and a cylinder, against points sampled on their surface."""
+"""Walls: the nearest point of a plane, a disc and a cylinder, against points sampled on their surface."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from clast.maths.vec3 import Vec, add, cross, dot, norm, scale, sub
 from clast.parts.wall import Nearest
-from clast_plugins.walls import cylinder, plane
+from clast_plugins.walls import cylinder, disc, plane
 from tests.support.strategies import assert_close, directions, numbers, rotate, rotations, unit, vectors
 
 ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
@@ -57,8 +57,8 @@ def test_an_infinite_plane_pushes_to_its_front_from_either_side(point, normal, x
 
 @settings(max_examples=60, deadline=None)
 @given(point=vectors(), n=directions(), radius=numbers(0.1, 2.0), x=vectors(4.0))
-def test_no_point_of_a_plate_is_nearer_than_the_nearest_point_which_lies_on_it(point, n, radius, x):
-    near = plane.nearest(plane.shape(plane.Plane(point=point, normal=n, radius=radius)), x)
+def test_no_point_of_a_disc_is_nearer_than_the_nearest_point_which_lies_on_it(point, n, radius, x):
+    near = disc.nearest(disc.shape(disc.Disc(point=point, normal=n, radius=radius)), x)
     samples = np.array(point) + rings(n, np.linspace(0.0, radius, 60))
     assert near.distance >= 0.0
     assert near.distance <= closest(samples, x) + 1e-12
@@ -77,26 +77,26 @@ def test_no_point_of_a_plate_is_nearer_than_the_nearest_point_which_lies_on_it(p
     height=numbers(-2.0, 2.0),
     turn=numbers(0, 6),
 )
-def test_beside_a_plate_the_nearest_point_is_on_the_rim(n, radius, out, height, turn):
+def test_beside_a_disc_the_nearest_point_is_on_the_rim(n, radius, out, height, turn):
     assume(out > 1e-6)
     e1, e2 = axes(n)
     side = add(scale(math.cos(turn), e1), scale(math.sin(turn), e2))
     x = add(scale(radius + out, side), scale(height, n))
-    near = plane.nearest(plane.shape(plane.Plane(point=(0, 0, 0), normal=n, radius=radius)), x)
+    near = disc.nearest(disc.shape(disc.Disc(point=(0, 0, 0), normal=n, radius=radius)), x)
     assert near.distance == pytest.approx(math.hypot(out, height), rel=1e-9)
     assert_close(foot(x, near), scale(radius, side), 1e-12, 4.0)
 
 
 @settings(max_examples=30, deadline=None)
 @given(n=directions(), radius=numbers(0.1, 2.0), inside=numbers(0.0, 0.99), height=numbers(-2.0, 2.0))
-def test_over_its_face_a_plate_is_its_plane_seen_from_either_side(n, radius, inside, height):
+def test_over_its_face_a_disc_is_its_plane_seen_from_either_side(n, radius, inside, height):
     x = add(scale(inside * radius, axes(n)[0]), scale(height, n))
-    near = plane.nearest(plane.shape(plane.Plane(point=(0, 0, 0), normal=n, radius=radius)), x)
+    near = disc.nearest(disc.shape(disc.Disc(point=(0, 0, 0), normal=n, radius=radius)), x)
     assert near.distance == pytest.approx(abs(height), abs=1e-13)
 
 
-def test_a_centre_on_a_plate_is_pushed_to_its_front():
-    near = plane.nearest(plane.shape(plane.Plane(point=(0, 0, 0), normal=(0, 0, 2), radius=1.0)), (0.3, 0.0, 0.0))
+def test_a_centre_on_a_disc_is_pushed_to_its_front():
+    near = disc.nearest(disc.shape(disc.Disc(point=(0, 0, 0), normal=(0, 0, 2), radius=1.0)), (0.3, 0.0, 0.0))
     assert near == Nearest(0.0, (0.0, 0.0, -1.0))
 
 
@@ -133,21 +133,30 @@ def test_on_the_axis_of_a_cylinder_no_direction_is_preferred():
     point=vectors(),
 )
 def test_a_rotated_world_gives_the_same_distance_in_a_rotated_direction(q, x, radius, n, point):
-    here = plane.nearest(plane.shape(plane.Plane(point=point, normal=n, radius=radius)), x)
+    def seen(point, n, x):
+        if radius is None:
+            return plane.nearest(plane.shape(plane.Plane(point=point, normal=n)), x)
+        return disc.nearest(disc.shape(disc.Disc(point=point, normal=n, radius=radius)), x)
+
+    here = seen(point, n, x)
     assume(here.distance > 1e-3)
-    wall = plane.Plane(point=rotate(q, point), normal=rotate(q, n), radius=radius)
-    there = plane.nearest(plane.shape(wall), rotate(q, x))
+    there = seen(rotate(q, point), rotate(q, n), rotate(q, x))
     assert there.distance == pytest.approx(here.distance, abs=1e-12)
     assert_close(there.normal, rotate(q, here.normal), 1e-9, 1.0)
 
 
-@pytest.mark.parametrize("radius", [None, 0.7])
-def test_the_drawn_surface_of_a_plane_lies_on_it(radius):
-    wall = plane.Plane(point=(1, 2, 3), normal=(1, 1, 0), radius=radius)
-    points, triangles = plane.mesh(wall, 2.0)
+@pytest.mark.parametrize(
+    ("part", "wall", "reach"),
+    [
+        (plane, plane.Plane(point=(1, 2, 3), normal=(1, 1, 0)), 2.0),
+        (disc, disc.Disc(point=(1, 2, 3), normal=(1, 1, 0), radius=0.7), 0.7),
+    ],
+)
+def test_the_drawn_surface_of_a_plane_and_a_disc_lies_on_it(part, wall, reach):
+    points, triangles = part.mesh(wall, 2.0)
     away = points - np.array([1.0, 2.0, 3.0])
     assert away @ np.array([1.0, 1.0, 0.0]) == pytest.approx(0.0, abs=1e-12)
-    assert np.linalg.norm(away, axis=1).max() == pytest.approx(radius or 2.0)
+    assert np.linalg.norm(away, axis=1).max() == pytest.approx(reach)
     assert set(triangles.ravel()) == set(range(len(points)))
 
 

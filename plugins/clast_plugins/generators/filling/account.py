@@ -33,8 +33,8 @@ def account(
     """Return what a fill of fractions with these names reached.
 
     Densities and porosities are those below the height in m that was ``asked``, or below the mean surface where none
-    was or the bed does not reach it. Porosities are those of :mod:`clast.granular`: in all, and between the grains, which
-    then count with their pores, as convex hulls of their primaries.
+    was or the bed does not reach it. Porosities are those of :mod:`clast.granular`: in all, and between the grains,
+    which then count with their pores, as convex hulls of their primaries.
     """
     grains, settled = bed.grains, bed.settled
     names, mass, surface = list(fractions), float(recipe.mass.sum()), mean_surface(grains, room)
