@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError, ValidationInfo
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
-from clast.config.choice import KIND_KEY, Chosen, choose, plain_fields, registry_of
+from clast.config.choice import KIND_KEY, Chosen, choose, plain_fields
 from clast.config.problems import explain, problem, refuse, short
 from clast.config.sections import NeighbourSettings, WallSettings
 from clast.parts.params import Params
@@ -98,7 +98,7 @@ class PartBeside:
             problems += explain(error, self.settings)
         try:
             rest = {key: value for key, value in written.items() if key not in own}
-            part = choose(self.kind, rest, registry_of(info), own)
+            part = choose(self.kind, rest, info, own)
         except ValidationError as error:
             problems += explain(error, self.settings)
         if settings is None or part is None:

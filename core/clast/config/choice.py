@@ -50,7 +50,7 @@ def plain_fields(model: Params) -> dict[str, Any]:
     return {name: getattr(model, name) for name in type(model).model_fields}
 
 
-def choose(kind: str, given: Any, registry: Registry, also: frozenset[str] = frozenset()) -> Chosen:
+def choose(kind: str, given: Any, info: ValidationInfo, also: frozenset[str] = frozenset()) -> Chosen:
     """Turn a name, or a mapping with ``type``, into a chosen part.
 
     Parameters
@@ -59,7 +59,8 @@ def choose(kind: str, given: Any, registry: Registry, also: frozenset[str] = fro
         Kind of part.
     given : str or mapping
         A bare name stands for a part with all its defaults.
-    registry : Registry
+    info : ValidationInfo
+        Its context holds the registry, and the folder where relative paths start.
     also : frozenset of str
         Keys known to stand beside the part's own; only for the suggestions of messages.
 
@@ -70,13 +71,14 @@ def choose(kind: str, given: Any, registry: Registry, also: frozenset[str] = fro
     """
     if isinstance(given, Chosen):
         return given
+    registry = registry_of(info)
     name, rest = _name_and_rest(kind, given, registry)
     try:
         entry = registry.get(kind, name)
     except PluginError as error:
         raise refuse([problem(("type",), str(error), name, UNKNOWN_PART)]) from None
     try:
-        params = entry.part.Params.model_validate(rest, context={"registry": registry})
+        params = entry.part.Params.model_validate(rest, context=info.context)
     except ValidationError as error:
         raise refuse(explain(error, entry.part.Params, also | {"type"})) from None
     return Chosen(kind, name, entry.part_for(params), params, entry.source)
@@ -111,7 +113,7 @@ class PartOf:
         """Validate by looking the part up."""
 
         def validate(given: Any, info: ValidationInfo) -> Chosen:
-            return choose(self.kind, given, registry_of(info))
+            return choose(self.kind, given, info)
 
         return core_schema.with_info_plain_validator_function(validate)
 

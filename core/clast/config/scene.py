@@ -236,7 +236,7 @@ def build(document: Document) -> SceneConfig:
     data.setdefault("name", Path(document.name).stem)
     scene = None
     try:
-        scene = SceneConfig.model_validate(data, context={"registry": registry})
+        scene = SceneConfig.model_validate(data, context={"registry": registry, "folder": document.folder})
     except ValidationError as error:
         found = located(error, SceneConfig, document)
         # what a file that was not loaded would have brought cannot be missed

@@ -201,7 +201,11 @@ class Blueprint:
             found += [self.contacts.law.losses] if self.ledger else []
             found += _rolling_functions(self.contacts, self.ledger)
         found += [wall.nearest for wall in self.walls]
-        found += [function for motion in self.motions for function in (motion.velocity, motion.answer, motion.start)]
+        found += [
+            function
+            for motion in self.motions
+            for function in (motion.velocity, motion.way, motion.answer, motion.start)
+        ]
         found += [force.acceleration for force in self.body_forces]
         found += [self.damping.braking] if self.damping is not None else []
         return [function for function in found if function is not None]

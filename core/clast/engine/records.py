@@ -1,6 +1,7 @@
 """How the records of laws lie in tables: floats take one slot, vectors three, quaternions four.
 
-A record may hold others: their numbers lie where they stand, and their fields are named ``outer.inner``.
+A record may hold others: their numbers lie where they stand, and their fields are named ``outer.inner``. Records of
+walls may hold lists of numbers too: see :mod:`clast.engine.long_records`.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from numpy.typing import NDArray
 
 from clast.errors import PluginError
 
+LONG = 0
+"""Size of a field that holds as many numbers as a wall needs."""
+
 
 class Field(NamedTuple):
     """One field of a record: its name and how many numbers it takes."""
@@ -25,12 +29,12 @@ class Field(NamedTuple):
 
 @cache
 def members(record: type) -> dict[str, int | type]:
-    """Return what the fields of a NamedTuple type are by name: so many numbers, or another record.
+    """Return what the fields of a NamedTuple type are by name: so many numbers (``LONG``: any), or another record.
 
     Raises
     ------
     PluginError
-        If the type is no NamedTuple, or a field is neither a number, a fixed tuple of floats nor a NamedTuple.
+        If the type is no NamedTuple, or a field is none of: number, fixed tuple of floats, array, NamedTuple.
     """
     if not is_record(record):
         raise PluginError(f"{record.__module__}.{record.__qualname__} must be a NamedTuple")
@@ -61,7 +65,11 @@ def fields(record: type | None) -> list[Field]:
     [Field(name='strain', size=1), Field(name='slip', size=3)]
     """
     found: list[Field] = []
-    for name, member in members(record).items() if record is not None else ():
+    if record is None:
+        return found
+    for name, member in members(record).items():
+        if member == LONG:
+            raise PluginError(f"{record.__module__}.{record.__qualname__}.{name}: only records of walls hold arrays")
         if isinstance(member, int):
             found.append(Field(name, member))
         else:
@@ -78,6 +86,8 @@ def _size(record: type, name: str, hint: Any) -> int:
     arguments = get_args(hint)
     if hint in (float, int) or (get_origin(hint) in (Union, UnionType) and float in arguments):
         return 1
+    if get_origin(hint) is np.ndarray:
+        return LONG
     if get_origin(hint) is tuple and all(argument is float for argument in arguments):
         return len(arguments)
     raise PluginError(

@@ -3,40 +3,43 @@
 from __future__ import annotations
 
 from clast.engine.blueprint import Blueprint
+from clast.engine.long_records import construct_long
 from clast.engine.records import construct, width
 from clast.engine.slots_pieces import bind, bind_record, dispatch, function
+
+SHAPE = "kind, row, lists = walls.shape_kind[w], walls.shape[w], walls.lists"
+COURSE = "kind, row, lists = walls.motion_kind[w], walls.course[w], walls.lists"
 
 
 def walls_text(plan: Blueprint) -> str:
     """Return what binds the shapes and motions of a scene's walls."""
     lines, near = [], []
     for k, wall in enumerate(plan.walls):
-        values = [f"row[{n}]" for n in range(width(wall.Shape))]
         lines += [bind(f"nearest_{k}", wall.nearest), bind_record(f"Shape{k}", wall.Shape)]
-        near.append(f"nearest_{k}({construct(wall.Shape, f'Shape{k}', values)}, x)")
-    lines.append(dispatch("wall_nearest", "kind, row, x", near, "None"))
+        near.append(f"nearest_{k}({construct_long(wall.Shape, f'Shape{k}')}, x)")
+    lines.append(dispatch("wall_nearest", "walls, w, x", near, "None", [SHAPE]))
     return "\n".join([*lines, *_motions(plan)])
 
 
 def _motions(plan: Blueprint) -> list[str]:
-    lines, known, answers = [], [], []
+    lines, begin, known, answers = [], [], [], []
     for k, motion in enumerate(plan.motions):
-        values = [f"row[{n}]" for n in range(width(motion.Course))]
-        lines += [
-            bind(f"velocity_{k}", motion.velocity),
-            bind(f"answer_{k}", motion.answer),
-            bind(f"start_{k}", motion.start),
-            bind_record(f"Course{k}", motion.Course),
-        ]
-        course = construct(motion.Course, f"Course{k}", values)
-        begin = f"start_{k}({course})" if motion.start else "ZERO"
-        known.append(f"velocity_{k}({course}, time)" if motion.velocity else begin)
+        lines += [bind(f"{name}_{k}", getattr(motion, name)) for name in ("velocity", "way", "answer", "start")]
+        lines.append(bind_record(f"Course{k}", motion.Course))
+        course = construct_long(motion.Course, f"Course{k}")
+        start = f"start_{k}({course})" if motion.start else "ZERO"
+        begin.append(f"velocity_{k}({course}, time)" if motion.velocity else start)
+        mean = f"scale(1.0 / span, way_{k}({course}, time - 0.5 * span, time + 0.5 * span))"
+        known.append(mean if motion.way else begin[k])
         answers.append(f"answer_{k}({course}, time, pressed)" if motion.answer else known[k])
-    known.append("ZERO")  # walls without a motion stand still
-    answers.append("ZERO")
-    lines.append(dispatch("wall_velocity", "kind, row, time", known, "ZERO"))
-    lines.append(dispatch("wall_answer", "kind, row, time, pressed", answers, "ZERO"))
-    return lines
+    for branches in (begin, known, answers):
+        branches.append("ZERO")  # walls without a motion stand still
+    return [
+        *lines,
+        dispatch("wall_start", "walls, w, time", begin, "ZERO", [COURSE]),
+        dispatch("wall_velocity", "walls, w, time, span", known, "ZERO", [COURSE]),
+        dispatch("wall_answer", "walls, w, time, pressed", answers, "ZERO", [COURSE, "span = pressed.span"]),
+    ]
 
 
 def body_text(plan: Blueprint) -> str:

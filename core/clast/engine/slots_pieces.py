@@ -34,7 +34,7 @@ def function(name: str, arguments: str, body: str | Sequence[str]) -> str:
     return "\n".join(["", "@inlined", f"def {name}({arguments}):", *(f"    {line}" for line in lines)])
 
 
-def dispatch(name: str, arguments: str, branches: Sequence[str], otherwise: str) -> str:
-    """Return a function that picks a branch by ``kind``; the last branch needs no test."""
+def dispatch(name: str, arguments: str, branches: Sequence[str], otherwise: str, first: Sequence[str] = ()) -> str:
+    """Return a function that picks a branch by ``kind``; the last branch needs no test. Some lines may come first."""
     lines = [line for k, text in enumerate(branches[:-1]) for line in (f"if kind == {k}:", f"    return {text}")]
-    return function(name, arguments, [*lines, f"return {branches[-1] if branches else otherwise}"])
+    return function(name, arguments, [*first, *lines, f"return {branches[-1] if branches else otherwise}"])

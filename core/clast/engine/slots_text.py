@@ -16,7 +16,7 @@ from importlib import import_module
 
 from clast.engine.compiler import inlined
 from clast.maths.rotation import IDENTITY, spin_about, swing
-from clast.maths.vec3 import ZERO, add
+from clast.maths.vec3 import ZERO, add, scale
 from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Drag, overlap_before, stretch_before
 from clast.parts.integrator import Stage
 from clast.parts.rolling_resistance import Pressing, RollingLoad

@@ -79,7 +79,7 @@ class Walls(NamedTuple):
     """Walls: numbers of shape and motion, where they are, and what acts on them.
 
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
-    flat.
+    flat; ``lists`` holds what shapes and courses have of any length.
     """
 
     shape_kind: Integers
@@ -97,6 +97,7 @@ class Walls(NamedTuple):
     reference: Floats
     pressing: Floats
     pressing_sum: Floats
+    lists: Floats
 
 
 class Cracks(NamedTuple):

@@ -69,7 +69,7 @@ class Wall:
     Params : type
         Shape, as the user writes it under ``walls.NAME``.
     Shape : NamedTuple type
-        The numbers the compiled loop needs.
+        The numbers the compiled loop needs; arrays of float64 too.
     shape : (params) -> Shape
     nearest : (shape, x) -> Nearest
         For a centre x given in the wall's own frame (its displacement already subtracted).
@@ -112,15 +112,21 @@ class Motion:
     Params : type
         What the user writes under ``walls.NAME.motion``.
     Course : NamedTuple type
-        The numbers the compiled loop needs.
+        The numbers the compiled loop needs; arrays of float64 too.
     course : (params) -> Course
     velocity : (course, time) -> vector, optional
         Velocity of the wall in m/s.
+    way : (course, begin, end) -> vector, optional
+        How far a wall that knows its velocity comes between two times, in m: where that has a closed form. With it the
+        wall is where it should be at every force evaluation, to rounding; without, its velocity in the middle of a span
+        stands for the span.
     answer : (course, time, pressed) -> vector, optional
         Velocity in m/s of a wall that was :class:`Pressed`; ``time`` in s is in the middle of the span. Before the
         first force evaluation the wall rests, or has the velocity of ``start``.
     start : (course) -> vector, optional
         Velocity in m/s of a wall that answers, before any force is known.
+    lasts : (course) -> float, optional
+        Time in s up to which it tells how the wall moves; scenes that end later are refused.
     step_share : (course, mass) -> float, optional
         Share of the stable step at walls that stand still which is safe with this motion; ``mass`` in kg is that of
         all particles that forces can move.
@@ -128,7 +134,7 @@ class Motion:
     Raises
     ------
     PluginError
-        If it has neither or both.
+        If it has neither or both, or a way and no velocity.
     """
 
     summary: str
@@ -139,10 +145,14 @@ class Motion:
     answer: Callable[..., Vec] | None = None
     start: Callable[[Any], Vec] | None = None
     step_share: Callable[[Any, float], float] | None = None
+    way: Callable[..., Vec] | None = None
+    lasts: Callable[[Any], float] | None = None
 
     def __post_init__(self) -> None:
         if (self.velocity is None) == (self.answer is None):
             raise PluginError(f"motion {self.summary!r} needs either 'velocity' or 'answer'")
+        if self.way is not None and self.velocity is None:
+            raise PluginError(f"motion {self.summary!r} has a 'way', and no 'velocity' to go with it")
 
 
 @dataclass(frozen=True)

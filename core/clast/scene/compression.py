@@ -157,14 +157,29 @@ class Gauge:
         Raises
         ------
         ConfigError
-            If the plates never reach the strain, or only after more steps than can be counted.
+            If the plates never reach the strain, or only after more steps than can be counted; if a wall does not know
+            how to move so long.
         """
         end = self.config.time.end
         steps = float(end.steps) if end.steps is not None else step + (self._end_time() - time) / dt
+        self._refuse_longer(time + (steps - step - 1.0) * dt)
         if not steps <= MOST_STEPS:
             text = f"{steps:.3g} steps of {dt:.3g} s, more than {MOST_STEPS:.0e}; end earlier, or raise time.step"
             raise self.config.problem(("time", "end"), text)
         return max(1, ceil(steps - 1e-9))
+
+    def _refuse_longer(self, end: float) -> None:
+        for name, wall in self.config.walls.items():
+            motion = wall.motion
+            if motion is None or motion.part.lasts is None:
+                continue
+            last = motion.part.lasts(motion.part.course(motion.params))
+            if end > last:
+                raise self.config.problem(
+                    ("walls", name, "motion"),
+                    f"tells how the wall moves for {last:.5g} s only, and the scene lasts {end:.5g} s or more; end it "
+                    "earlier, or let the motion go on",
+                )
 
     def _end_time(self) -> float:
         end = self.config.time.end

@@ -17,6 +17,7 @@ from clast.engine.kernels.layout import (
     RADIUS,
     TERMS,
 )
+from clast.engine.long_records import long_row
 from clast.engine.records import fields, leaves, numbers
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
 from clast.engine.tables import (
@@ -29,6 +30,9 @@ from clast.engine.tables import (
 )
 from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs, wall_shapes
 from clast.scene.scene import Scene
+
+AT_REST = ("displacement", "velocity", "force", "moment", "force_sum", "moment_sum", "reference")
+"""Vectors of walls that are 0 at the start."""
 
 
 def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
@@ -148,19 +152,21 @@ def relieve(scene: Scene, pairs: Pairs) -> None:
 def _walls(scene: Scene, plan: Blueprint) -> Walls:
     chosen = list(scene.config.walls.values())
     names = list(scene.config.materials)
-    shapes = [numbers(shape) for _, shape in wall_shapes(scene)]
-    courses = [numbers(w.motion.part.course(w.motion.params)) if w.motion else [] for w in chosen]
+    lists: list[float] = []
+    shapes = [long_row(shape, lists) for _, shape in wall_shapes(scene)]
+    courses = [long_row(w.motion.part.course(w.motion.params), lists) if w.motion else [] for w in chosen]
     centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
-    still = [np.zeros((len(chosen), 3)) for _ in range(7)]
     return Walls(
-        np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
-        _table(shapes),
-        np.array([_motion_kind(plan, wall) for wall in chosen], np.int64),
-        _table(courses),
-        np.array([names.index(wall.material) for wall in chosen], np.int64),
-        np.array(centres, float).reshape(-1, 3),
-        *still,
-        *(np.zeros(len(chosen)) for _ in range(2)),
+        shape_kind=np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
+        shape=_table(shapes),
+        motion_kind=np.array([_motion_kind(plan, wall) for wall in chosen], np.int64),
+        course=_table(courses),
+        material=np.array([names.index(wall.material) for wall in chosen], np.int64),
+        centre=np.array(centres, float).reshape(-1, 3),
+        lists=np.array(lists, float),
+        pressing=np.zeros(len(chosen)),
+        pressing_sum=np.zeros(len(chosen)),
+        **{name: np.zeros((len(chosen), 3)) for name in AT_REST},
     )
 
 

@@ -14,6 +14,8 @@ from clast.testing.claim import Claim, claim, must
 from clast.testing.draws import numbers, vectors
 
 LONG, SPAN, MASS = 10.0, 1e-6, 1e-6
+PIECES = 400
+"""In which velocities are summed up: a jump of the velocity in one of them counts as that much of the way."""
 
 
 def claims(motion: Motion, params: Any) -> list[Claim]:
@@ -27,8 +29,29 @@ def claims(motion: Motion, params: Any) -> list[Claim]:
             vectors(100.0),
             vectors(1.0),
         ),
+        *_of_ways(motion, course),
         claim("compiled code gives the same bits as plain Python", lambda: _compiled_alike(motion, course)),
     ]
+
+
+def _of_ways(motion: Motion, course: Any) -> list[Claim]:
+    if motion.way is None:
+        return []
+    times = [numbers(0.0, LONG)] * 2
+    return [
+        claim("the way is what the velocities sum up to", lambda a, b: _summed(motion, course, *sorted((a, b))), *times)
+    ]
+
+
+def _summed(motion: Motion, course: Any, begin: float, end: float) -> None:
+    assert motion.way is not None
+    assert motion.velocity is not None
+    pieces = np.linspace(begin, end, PIECES + 1)
+    speeds = np.array([motion.velocity(course, float(t)) for t in 0.5 * (pieces[1:] + pieces[:-1])])
+    told, summed = np.array(motion.way(course, begin, end)), (end - begin) * speeds.mean(axis=0)
+    off = float(np.abs(told - summed).max())
+    most = 4.0 / PIECES * (end - begin) * float(np.abs(speeds).max()) + 1e-12 * LONG
+    must(off <= most, lambda: f"the way from {begin:g} s to {end:g} s is {told} m, the velocities sum up to {summed} m")
 
 
 def velocity(motion: Motion, course: Any, time: float, force: Vec, velocity: Vec) -> Vec:
@@ -46,7 +69,7 @@ def _sound(motion: Motion, course: Any, time: float, force: Vec, before: Vec) ->
 
 
 def _compiled_alike(motion: Motion, course: Any) -> None:
-    ahead, answer = motion.velocity, motion.answer
+    ahead, answer, way = motion.velocity, motion.answer, motion.way
 
     def known(times: Any, forces: Any, course: Any, out: Any) -> None:
         for k in range(len(times)):
@@ -58,7 +81,11 @@ def _compiled_alike(motion: Motion, course: Any) -> None:
             pressed = Pressed((f[0], f[1], f[2]), MASS, (f[3], f[4], f[5]), SPAN, SPAN)
             out[k, 0], out[k, 1], out[k, 2] = answer(course, times[k], pressed)  # type: ignore[misc]
 
+    def going(times: Any, forces: Any, course: Any, out: Any) -> None:
+        for k in range(len(times)):
+            out[k, 0], out[k, 1], out[k, 2] = way(course, times[k], times[k] + abs(forces[k, 0]))  # type: ignore[misc]
+
     draw = np.random.default_rng(13)
-    sweep, function = (known, ahead) if answer is None else (answering, answer)
-    assert function is not None
-    same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)
+    for sweep, function in ((known, ahead), (answering, answer), (going, way)):
+        if function is not None:
+            same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)

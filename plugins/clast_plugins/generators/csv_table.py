@@ -91,7 +91,7 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str]) -> 
     ConfigError
         The file is missing, unreadable, empty, no text, or its header or a row's length is wrong.
     """
-    table = _split(path, text_lines(path, f"a CSV file with the header '{','.join(required)}'"))
+    table = split(path, text_lines(path, f"a CSV file with the header '{','.join(required)}'"))
     _check_header(table, required, optional)
     for line, row in table.rows:
         if "" in row.values() or len(row) != len(table.columns):
@@ -125,7 +125,14 @@ def text_lines(path: Path, needed: str) -> list[str]:
     return text.splitlines()
 
 
-def _split(path: Path, lines: list[str]) -> Table:
+def split(path: Path, lines: list[str]) -> Table:
+    """Return the cells of lines, the first of which that is not empty names the columns.
+
+    Raises
+    ------
+    ConfigError
+        A quote is not closed.
+    """
     columns: list[str] = []
     table = Table(path, columns, [])
     reader = csv.reader(lines, strict=True)

@@ -268,7 +268,7 @@ def wall_energy(
     numbers = world.numbers
     w, k = pairs.wall[p], pairs.particle[p]
     x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
-    near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
+    near = wall_nearest(walls, w, x)
     radius = particles.pose[k, RADIUS]
     if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
         return 0.0

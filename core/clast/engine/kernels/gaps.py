@@ -37,7 +37,7 @@ def gaps(world: World, between: Floats, at_walls: Floats) -> None:
         for p in range(len(world.wall_pairs.wall)):
             w, k = world.wall_pairs.wall[p], world.wall_pairs.particle[p]
             x = sub(row(world.particles.pose, k, X), row(world.walls.displacement, w, 0))
-            near = wall_nearest(world.walls.shape_kind[w], world.walls.shape[w], x)
+            near = wall_nearest(world.walls, w, x)
             write(at_walls, p, near.normal, world.particles.pose[k, RADIUS] - near.distance)
 
 

@@ -42,6 +42,7 @@ from .slots import (
     body_acceleration,
     braking,
     wall_answer,
+    wall_start,
     wall_velocity,
 )
 
@@ -232,7 +233,7 @@ def move_after_forces(
 def start_walls(walls: Walls, time: float) -> None:
     """Give the walls the velocities they have before any force is known."""
     for w in range(len(walls.shape_kind)):
-        v = wall_velocity(walls.motion_kind[w], walls.course[w], time)
+        v = wall_start(walls, w, time)
         for c in range(3):
             walls.velocity[w, c] = v[c]
 
@@ -245,12 +246,11 @@ def steer_walls(walls: Walls, mass: float, middle: float, span: float, since: fl
     all particles, ``since`` the time since the forces before.
     """
     for w in range(len(walls.shape_kind)):
-        kind, course = walls.motion_kind[w], walls.course[w]
         if ANSWERING:
             pressed = Pressed(row(walls.force, w, 0), mass, row(walls.velocity, w, 0), span, since)
-            v = wall_answer(kind, course, middle, pressed)
+            v = wall_answer(walls, w, middle, pressed)
         else:
-            v = wall_velocity(kind, course, middle)
+            v = wall_velocity(walls, w, middle, span)
         for c in range(3):
             walls.velocity[w, c] = v[c]
 

@@ -31,6 +31,6 @@ def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: fl
                 if particles.present[k] == 0 or particles.body[k, INVERSE_MASS] == 0.0:
                     continue
                 x = sub(row(particles.pose, k, 0), row(walls.displacement, w, 0))
-                found = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
+                found = wall_nearest(walls, w, x)
                 if found.distance < particles.pose[k, RADIUS] + slack[k] + wall_slack:
                     near[w, k] = 1

@@ -120,7 +120,7 @@ def write_wall_contact(world: World, p: int, time: float, place: int, output: Fl
     particles, walls, pairs, numbers = world.particles, world.walls, world.wall_pairs, world.numbers
     w, k = pairs.wall[p], pairs.particle[p]
     centre, radius = row(particles.pose, k, X), particles.pose[k, RADIUS]
-    near = wall_nearest(walls.shape_kind[w], walls.shape[w], sub(centre, row(walls.displacement, w, 0)))
+    near = wall_nearest(walls, w, sub(centre, row(walls.displacement, w, 0)))
     if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
         return False
     if place < len(output):

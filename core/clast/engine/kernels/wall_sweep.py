@@ -143,7 +143,7 @@ def pull_off_loss(walls: Walls, pairs: WallPairs, particles: Particles, numbers:
     """Return the energy in J that wall pair p loses as it ends beyond touch."""
     w, k = pairs.wall[p], pairs.particle[p]
     x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
-    near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
+    near = wall_nearest(walls, w, x)
     radius = particles.pose[k, RADIUS]
     opened = dt * dot(sub(row(walls.velocity, w, 0), row(particles.twist, k, V)), near.normal)
     then = still(radius, 0.0, radius - near.distance + opened, near.normal)
@@ -158,7 +158,7 @@ def sweep_walls(
     for p in range(len(pairs.wall)):
         w, k = pairs.wall[p], pairs.particle[p]
         x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
-        near = wall_nearest(walls.shape_kind[w], walls.shape[w], x)
+        near = wall_nearest(walls, w, x)
         radius = particles.pose[k, RADIUS]
         if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
             if CONTACT_LOSSES and pairs.touching[p] != 0:

@@ -12,7 +12,7 @@ from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings
 from clast.verification.curves import Floats
 from clast.verification.finding import Finding
-from clast.verification.reading import follow, position, velocity
+from clast.verification.reading import evaluation, follow, position, velocity
 from clast.verification.sketch import Line, Sketch
 
 G = 9.81
@@ -25,9 +25,9 @@ SEEN = 5e-3
 BOWL, EDGE, TABLE, LOOSE = 0, 1, 2, 3
 """Numbers of the spheres."""
 
-STIFF, SMOOTH, EXACT = 1e-2, 1e-4, 1e-8
-"""Accuracy of closed forms of stiff bodies, that touch in a point; of what changes slowly; and of sums of steps, within
-which a wall keeps one velocity."""
+STIFF, SMOOTH, EXACT, ROUNDING = 1e-2, 1e-4, 1e-8, 1e-11
+"""Accuracy of closed forms of stiff bodies, that touch in a point; of what changes slowly; of sums of steps, within
+which a wall keeps one velocity; and of sums of ways that are known."""
 
 
 def wall(simulation: Simulation, name: str) -> int:
@@ -125,6 +125,30 @@ def judge_free(bench: Bench) -> Findings:
     yield Finding("way of the falling plate, m", expected, float(fallen), EXACT)
 
 
+def judge_table(bench: Bench) -> Findings:
+    """Follow a plate that goes by a table of displacements, over and over, with rows between the steps."""
+    simulation = bench.start()
+    guided, rows = wall(simulation, "guided"), np.array(moving(simulation, "guided").displacement)
+    since = (1.0 - evaluation(simulation)) * simulation.dt
+
+    def at_forces(at: Simulation) -> Any:
+        return at.world.walls.displacement[guided] - since * at.world.walls.velocity[guided]
+
+    place = follow(simulation, at_forces, LOOK)[1:]
+    time = np.minimum(LOOK * np.arange(1, len(place) + 1), simulation.last_step) * simulation.dt - since
+    expected = np.interp(time, rows[:, 0], rows[:, 1], period=float(rows[-1, 0]))
+    size = float(np.ptp(rows[:, 1]))
+    error = float(np.abs(place[:, 2] - expected).max()) / size
+    yield Finding("place where forces see it: largest error, share of the way", 0.0, error, ROUNDING, True)
+    yield Finding("largest displacement, m", float(expected.max()), float(place[:, 2].max()), ROUNDING)
+    shown = time <= 2.0 * rows[-1, 0]
+    lines = (
+        Line("table", time[shown], 1e3 * expected[shown]),
+        Line("Clast", time[shown][::10], 1e3 * place[shown, 2][::10], dots=True),
+    )
+    yield Sketch("a plate that follows a table", "time, s", "displacement, mm", lines)
+
+
 def judge_frame(bench: Bench) -> Findings:
     """Watch free flight in a frame that turns: in the frame at rest it is straight."""
     simulation = bench.start()
@@ -157,8 +181,8 @@ FAMILY = Family(
     "surroundings",
     "Walls, their motions, and body forces",
     "Spheres without friction tell what surrounds them: one swings in a bowl as a pendulum, one is turned aside by the "
-    "edge of a block, one is shaken on a table, one runs into a loose plate; and one flies freely in a frame that "
-    "turns.",
+    "edge of a block, one is shaken on a table, one runs into a loose plate; one flies freely in a frame that turns; "
+    "and a plate follows a table.",
     (
         Case(
             "wall_bowl",
@@ -187,6 +211,13 @@ FAMILY = Family(
             "surroundings",
             judge_free,
             "elastic impact of two bodies: 2 m v/(m + M) and (m - M) v/(m + M); free fall",
+        ),
+        Case(
+            "motion_table",
+            "a plate that follows a table",
+            "surroundings",
+            judge_table,
+            "the displacements of the table, with straight lines between the rows, over and over",
         ),
         Case(
             "force_frame",
