@@ -8,13 +8,16 @@ import h5py
 import numpy as np
 import pytest
 
-from clast import load, open_run, run_scene
+from clast import Simulation, load, open_run, run_scene
 from clast.errors import ConfigError
 from clast.observer import Ended
+from clast.results import checkpoint
 from clast.results.in_words import summary_rows
 from clast.results.stops import Stops
+from clast.scene.compression import Gauge
+from clast.verification.asking import Asking
 from clast.verification.bench import scene_file
-from tests.scenes import COLLISION, write
+from tests.scenes import COLLISION, CRUSH, write
 
 REST = "stop=[{type: at_rest, limit: 1e-2}]"
 
@@ -69,3 +72,82 @@ def test_samples_from_before_a_resume_count(tmp_path):
 def test_a_condition_on_the_stress_of_a_scene_without_plates_is_refused_where_it_stands(tmp_path):
     with pytest.raises(ConfigError, match=r"stop.0: force_drop looks at strain or stress, and the scene has no compr"):
         load(write(tmp_path, COLLISION), ["stop=[{type: force_drop}]"])
+
+
+STAGED = """walls.upper.motion=[
+  {type: constant_velocity, velocity: [0, 0, -20 mm/s], until: {type: force, wall: upper, above: 0.5 N}},
+  {type: table, direction: [0, 0, 1], velocity: [[0, 10 mm/s], [1 ms, 20 mm/s]], until: {type: elapsed, time: 0.2 ms}},
+  {type: constant_velocity, velocity: [0, 0, 20 mm/s], until: {type: force, wall: upper, below: 0.1 N}}]"""
+ENDED = ["stop=[{type: stages_over, wall: upper}]", "time.end={time: 5 ms}", "output.writers=[]", "output.samples=400"]
+
+
+def test_a_wall_goes_through_its_stages_and_then_the_run_ends(tmp_path):
+    scene = load(write(tmp_path, CRUSH), [STAGED, *ENDED])
+    assert run_scene(scene, tmp_path / "run").summary["ended_by"]["by"] == "stages_over"
+    with open_run(tmp_path / "run") as run:
+        stage, force, time = (run.curves[name] for name in ("stage_upper", "force_upper_z_N", "time_s"))
+    assert np.unique(stage[:-1]).tolist() == [1.0, 2.0, 3.0]
+    assert stage[-1] == 0.0
+    first, second, third = np.nonzero(np.diff(stage))[0]  # the last sample of each stage
+    assert force[first] >= 0.5 > force[:first].max()
+    assert 0.2e-3 <= time[second] - time[first] < 0.2e-3 + time[1]
+    assert force[third] <= 0.1 < force[first:third].min()
+
+
+def test_a_wall_turns_at_the_same_sample_after_a_resume(tmp_path):
+    scene = load(write(tmp_path, CRUSH), [STAGED, *ENDED])
+    whole, half, resumed = (Simulation(scene, threads=1) for _ in range(3))
+    asked = [Asking(simulation, 20, force_on_the_plate) for simulation in (whole, half, resumed)]
+    whole.run([asked[0]])
+    over = int(np.nonzero([row["stage"] == 2.0 for row in asked[0].rows])[0][0])
+    half.last_step = 20 * over - 30  # in the second stage
+    half.run([asked[1]])
+    assert half.world.walls.stage[0, 0] == 1
+    checkpoint.save(tmp_path, half, {})
+    checkpoint.load(tmp_path, resumed)
+    asked[2].stops.recall({name: np.array([row[name] for row in asked[1].rows]) for name in asked[1].rows[0]})
+    resumed.run([asked[2]])
+    assert resumed.world.walls.stage[0, 0] == 3
+    assert asked[1].rows + asked[2].rows == asked[0].rows
+    for (name, one), (_, other) in zip(checkpoint.state_arrays(whole), checkpoint.state_arrays(resumed), strict=True):
+        assert one.tobytes() == other.tobytes(), name
+
+
+def force_on_the_plate(simulation):
+    walls = simulation.world.walls
+    force = {f"force_upper_{c}_N": float(walls.force[0, k]) for k, c in enumerate("xyz")}
+    stage = float(walls.stage[0, 0])
+    return {"time_s": simulation.time, **force, "stage": stage, "stage_upper": 0.0 if stage == 3.0 else stage + 1.0}
+
+
+@pytest.mark.parametrize(
+    ("motion", "told"),
+    [
+        ("[{type: constant_velocity, velocity: [0, 0, 1]}, {type: constant_velocity, velocity: [0, 0, 2]}]",
+         r"walls.upper.motion: motion 0 \(constant_velocity\) is never over"),
+        ("[]", r"walls.upper.motion: must have 1 or more entries"),
+        ("[{type: constant_velocity, velocity: [0, 0, 1], untill: force}]",
+         r"walls.upper.motion.0.untill: not a known key; did you mean 'until'"),
+        ("[{type: constant_velocity, velocity: [0, 0, 1], until: {type: force, wall: uper, above: 1 N}}]",
+         r"walls.upper.motion.until: force looks at 'force_uper_x_N', which the curves of this scene lack; did you"),
+        ("{type: constant_velocity, velocity: [0, 0, 1], until: {type: strain, strain: 0.1}}",
+         r"walls.upper.motion.until: strain looks at strain or stress, and the scene has no compression"),
+        ("{type: constant_velocity, velocity: [0, 0, 1], until: {type: force, wall: upper}}",
+         r"walls.upper.motion.until: exactly one of above and below is needed; given neither"),
+    ],
+)  # fmt: skip
+def test_stages_that_cannot_be_are_refused_where_they_stand(tmp_path, motion, told):
+    with pytest.raises(ConfigError, match=told):
+        load(write(tmp_path, CRUSH), ["compression=null", "time.end={time: 1 ms}", f"walls.upper.motion={motion}"])
+
+
+def test_a_strain_at_the_end_of_stages_is_refused_as_nobody_knows_when(tmp_path):
+    staged = "{type: constant_velocity, velocity: [0, 0, -1], until: {type: strain, strain: 0.1}}"
+    scene = load(write(tmp_path, CRUSH), [f"walls.upper.motion={staged}"])
+    with pytest.raises(ConfigError, match=r"time.end.strain: walls.upper moves until a condition holds"):
+        Gauge(scene).last_step(1e-6)
+
+
+def test_a_wall_that_has_no_stages_has_none_to_be_over(tmp_path):
+    with pytest.raises(ConfigError, match=r"stop.0: stages_over looks at 'stage_upper', which the curves"):
+        load(write(tmp_path, CRUSH), ["stop=[{type: stages_over, wall: upper}]"])

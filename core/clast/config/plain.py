@@ -7,8 +7,8 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from clast.config.beside import NeighbourChoice, WallChoice
 from clast.config.choice import Chosen, plain_fields
+from clast.config.part_beside import Joined
 from clast.parts.params import Params
 
 
@@ -21,7 +21,7 @@ def plain_data(value: Any, folder: Path) -> Any:
     folder : Path
         Where relative paths start; they become absolute.
     """
-    if isinstance(value, Chosen | WallChoice | NeighbourChoice):
+    if isinstance(value, Chosen | Joined):
         return plain_data(value.plain(), folder)
     if isinstance(value, Params):
         return plain_data({key: inner for key, inner in plain_fields(value).items() if inner is not None}, folder)

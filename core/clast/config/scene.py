@@ -120,6 +120,17 @@ class SceneConfig(Params):
         return self._registry
 
     @property
+    def motions(self) -> Iterator[tuple[KeyPath, Chosen]]:
+        """Every motion of a wall, with its key path."""
+        return ((path, each) for path, each in _chosen_in(self.walls, ("walls",)) if each.kind == "motion")
+
+    @property
+    def conditions(self) -> Iterator[tuple[KeyPath, Chosen]]:
+        """Every condition that is asked after samples: those that end the run, and those that end stages of motions."""
+        found = _chosen_in({"stop": self.stop, "walls": self.walls}, ())
+        return ((path, each) for path, each in found if each.kind == "stop")
+
+    @property
     def folder(self) -> Path:
         """Folder that relative paths in the scene start from."""
         return self._document.folder
@@ -268,7 +279,10 @@ def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
         yield from _chosen_in(value.params, path)
     elif isinstance(value, WallChoice):
         yield from _chosen_in(value.shape, path)
-        yield from _chosen_in(value.motion, (*path, "motion"))
+        for k, stage in enumerate(value.stages):
+            at = (*path, "motion", k) if len(value.stages) > 1 else (*path, "motion")
+            yield from _chosen_in(stage.motion, at)
+            yield from _chosen_in(stage.until, (*at, "until"))
     elif isinstance(value, NeighbourChoice):
         yield from _chosen_in(value.search, path)
     elif isinstance(value, BaseModel):

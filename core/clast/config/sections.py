@@ -11,6 +11,7 @@ from clast.config.choice import Chosen, PartOf, default_part, registry_of
 from clast.config.problems import refuse
 from clast.config.quantities import Area, Density, Length, Number, Point, Stress, Time, Velocity
 from clast.config.scatter import Scatter, scatter_problems
+from clast.config.stages import Stages
 from clast.parts.params import Params
 
 BEYOND = 1e100
@@ -87,8 +88,8 @@ class WallSettings(Params):
 
     material: Annotated[str, Field(description="Name of the wall's material")]
     motion: Annotated[
-        Annotated[Chosen, PartOf("motion")] | None,
-        Field(description="How the wall moves; by default it rests"),
+        Stages | None,
+        Field(description="How the wall moves, or a list of motions, each until a condition; by default it rests"),
     ] = None
 
 

@@ -8,7 +8,10 @@ from clast.engine.records import construct, width
 from clast.engine.slots_pieces import bind, bind_record, dispatch, function
 
 SHAPE = "kind, row, lists = walls.shape_kind[w], walls.shape[w], walls.lists"
-COURSE = "kind, row, lists = walls.motion_kind[w], walls.course[w], walls.lists"
+COURSE = [
+    "kind, row, lists = walls.motion_kind[w], walls.course[w], walls.lists",
+    "time = now - walls.begun[w]",
+]
 
 
 def walls_text(plan: Blueprint) -> str:
@@ -36,9 +39,9 @@ def _motions(plan: Blueprint) -> list[str]:
         branches.append("ZERO")  # walls without a motion stand still
     return [
         *lines,
-        dispatch("wall_start", "walls, w, time", begin, "ZERO", [COURSE]),
-        dispatch("wall_velocity", "walls, w, time, span", known, "ZERO", [COURSE]),
-        dispatch("wall_answer", "walls, w, time, pressed", answers, "ZERO", [COURSE, "span = pressed.span"]),
+        dispatch("wall_start", "walls, w, now", begin, "ZERO", COURSE),
+        dispatch("wall_velocity", "walls, w, now, span", known, "ZERO", COURSE),
+        dispatch("wall_answer", "walls, w, now, pressed", answers, "ZERO", [*COURSE, "span = pressed.span"]),
     ]
 
 

@@ -79,7 +79,8 @@ class Walls(NamedTuple):
     """Walls: numbers of shape and motion, where they are, and what acts on them.
 
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
-    flat; ``lists`` holds what shapes and courses have of any length.
+    flat; ``lists`` holds what shapes and courses have of any length. ``begun`` (w,) is when the present stage of each
+    wall's motion began in s, ``stage`` (w, 2) its number and that of the sample at which it began.
     """
 
     shape_kind: Integers
@@ -98,6 +99,8 @@ class Walls(NamedTuple):
     pressing: Floats
     pressing_sum: Floats
     lists: Floats
+    begun: Floats
+    stage: Integers
 
 
 class Cracks(NamedTuple):

@@ -1,8 +1,8 @@
-"""Stop: a condition under which a run ends before its time is up."""
+"""Stop: a condition under which a run ends before its time is up, or a stage of a wall's motion is over."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,11 @@ ON_DEMAND = (UNBALANCE,)
 """All such columns."""
 
 
+def nothing(params: Any) -> tuple[str, ...]:
+    """Return no column, whatever the parameters."""
+    return ()
+
+
 @dataclass(frozen=True)
 class Stop:
     """The part a plugin registers with ``registry.stop(name, Stop(...))``.
@@ -31,14 +36,17 @@ class Stop:
     summary : str
         One line for ``clast plugins``.
     Params : type
-        What the user writes in the list ``stop``.
+        What the user writes in the list ``stop``, or under ``until`` of a motion.
     reached : (params, curves) -> str or None
-        Asked after every sample. A sentence that says what was reached, with its numbers; None to go on. Must depend
-        on nothing else, so that a run ends at the same sample wherever and however often it is run.
+        Asked after every sample; for a stage of a motion with the curves from its beginning on. A sentence that says
+        what was reached, with its numbers; None to go on. Must depend on nothing else, so that a run ends at the same
+        sample wherever and however often it is run.
     columns : tuple of str, optional
         Columns that it reads and that are kept only for it, of ``ON_DEMAND``.
     of_compression : bool, optional
         Whether it looks at strain or stress, which only scenes with a compression have; others are refused.
+    reads : (params) -> sequence of str, optional
+        Columns that it reads and that depend on its parameters; scenes without them are refused.
 
     Raises
     ------
@@ -51,6 +59,7 @@ class Stop:
     reached: Callable[[Any, Curves], str | None]
     columns: tuple[str, ...] = ()
     of_compression: bool = False
+    reads: Callable[[Any], Sequence[str]] = nothing
 
     def __post_init__(self) -> None:
         for name in self.columns:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from clast.config.columns import OF_COMPRESSION, stage_columns, wall_columns
 from clast.engine.kernels.layout import F, M, V, W, X
 from clast.engine.ledger import Ledger
 from clast.engine.state import Floats
@@ -38,12 +39,9 @@ class Samples:
         self.particles = np.array(output.tracks.particles, np.int64)
         self.bonds = np.array(output.tracks.bonds, np.int64)
         self.previous_step = 0
-        self.wall_columns = [
-            f"{what}_{wall}_{c}_{unit}"
-            for wall in simulation.gauge.names
-            for what, unit in (("force", "N"), ("moment", "Nm"))
-            for c in "xyz"
-        ]
+        self.wall_columns = wall_columns(simulation.gauge.names)
+        self.stage_columns = stage_columns(simulation.config.walls)
+        self.stages = [len(wall.stages) for wall in simulation.config.walls.values()]
         curved = [(k, name) for k, (name, wall) in enumerate(simulation.config.walls.items()) if not wall.flat]
         self.curved_columns = {f"normal_force_{name}_N": k for k, name in curved}
 
@@ -81,19 +79,19 @@ class Samples:
         row = {"time_s": simulation.time}
         if gauge.axis is not None:
             upper, lower = gauge.forces(force)
-            row |= {
-                "displacement_m": gauge.displacement(walls),
-                "strain": gauge.strain(walls),
-                "stress_Pa": upper / gauge.area,
-                "force_upper_N": upper,
-                "force_lower_N": lower,
-            }
+            plates = (gauge.displacement(walls), gauge.strain(walls), upper / gauge.area, upper, lower)
+            row |= zip(OF_COMPRESSION, plates, strict=True)
         side = gauge.side_reading(walls, force, pressing)
         row |= side._asdict() if side is not None else {}
         row |= zip(self.wall_columns, np.concatenate((force, moment), axis=1).ravel().tolist(), strict=True)
         row |= {name: float(pressing[k]) for name, k in self.curved_columns.items()}
+        row |= {name: self._stage(int(walls.stage[k, 0]), k) for name, k in self.stage_columns.items()}
         row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
         return row | (energy.columns(ledger) if simulation.plan.ledger else {})
+
+    def _stage(self, number: int, wall: int) -> int:
+        """Return the stage of a wall's motion, from 1 on; 0 once all are over."""
+        return number + 1 if number < self.stages[wall] else 0
 
     def _particle_row(self, simulation: Simulation) -> dict[str, Floats]:
         particles, k = simulation.world.particles, self.particles

@@ -1,4 +1,4 @@
-"""Stops: asking a scene's conditions, after every sample, whether its run is over."""
+"""Stops: asking a scene's conditions, after every sample, whether its run is over, or a stage of a wall's motion."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.observer import Ended
 from clast.parts.stop import UNBALANCE
+from clast.results.stages import Stages
 from clast.results.unbalance import unbalanced_force_ratio
 from clast.simulation import Simulation
 
@@ -29,7 +30,10 @@ class Stops:
 
     def __init__(self, config: SceneConfig) -> None:
         self.chosen: tuple[Chosen, ...] = config.stop
-        self.columns = tuple(dict.fromkeys(name for each in self.chosen for name in each.part.columns))
+        self.stages = Stages(config)
+        asked = [each for _, each in config.conditions]
+        self.any = bool(asked)
+        self.columns = tuple(dict.fromkeys(name for each in asked for name in each.part.columns))
         self.seen: dict[str, list[float]] = {}
 
     def extra(self, simulation: Simulation) -> dict[str, float]:
@@ -38,11 +42,11 @@ class Stops:
 
     def recall(self, curves: Mapping[str, NDArray[Any]]) -> None:
         """Remember the samples of the run that is gone on with."""
-        self.seen = {name: list(map(float, values)) for name, values in curves.items()} if self.chosen else {}
+        self.seen = {name: list(map(float, values)) for name, values in curves.items()} if self.any else {}
 
     def look(self, simulation: Simulation, row: Mapping[str, float]) -> None:
-        """Note a sample, and end the run where a condition is reached."""
-        if not self.chosen:
+        """Note a sample, and end the run, or a stage of a wall's motion, where its condition is reached."""
+        if not self.any:
             return
         for name, value in row.items():
             self.seen.setdefault(name, []).append(float(value))
@@ -52,3 +56,4 @@ class Stops:
             if told is not None:
                 simulation.end_here(Ended(each.name, told))
                 return
+        self.stages.look(simulation, curves)

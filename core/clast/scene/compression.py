@@ -169,14 +169,13 @@ class Gauge:
         return max(1, ceil(steps - 1e-9))
 
     def _refuse_longer(self, end: float) -> None:
-        for name, wall in self.config.walls.items():
-            motion = wall.motion
-            if motion is None or motion.part.lasts is None:
+        for path, motion in self.config.motions:
+            if motion.part.lasts is None:
                 continue
             last = motion.part.lasts(motion.part.course(motion.params))
             if end > last:
                 raise self.config.problem(
-                    ("walls", name, "motion"),
+                    path,
                     f"tells how the wall moves for {last:.5g} s only, and the scene lasts {end:.5g} s or more; end it "
                     "earlier, or let the motion go on",
                 )
@@ -206,6 +205,12 @@ class Gauge:
     def _refuse_answers(self) -> None:
         for k in (self.upper, self.lower):
             motion = self._wall(k).motion
+            if self._wall(k).staged:
+                raise self.config.problem(
+                    ("time", "end", "strain"),
+                    f"walls.{self.names[k]} moves until a condition holds, so when it reaches a strain cannot be known "
+                    "beforehand; give time.end.time, and a strain under 'stop'",
+                )
             if motion is not None and motion.part.velocity is None:
                 raise self.config.problem(
                     ("time", "end", "strain"),

@@ -35,7 +35,7 @@ def blueprint(scene: Scene) -> Blueprint:
         bonds=_bond_plan(scene),
         contacts=_contact_plan(scene),
         walls=distinct(wall.shape for wall in config.walls.values()),
-        motions=distinct(wall.motion for wall in config.walls.values() if wall.motion is not None),
+        motions=distinct(stage.motion for wall in config.walls.values() for stage in wall.stages),
         body_forces=tuple(chosen.part for chosen in config.body_forces),
         applied_loads=len(applied_loads(scene)) > 0,
         ledger=config.output.ledger,
@@ -68,9 +68,13 @@ def step_share(scene: Scene) -> float:
     damping, mass = scene.config.damping, float(scene.mass[~scene.prescribed].sum())
     share = 1.0 if damping is None else float(damping.part.step_share(damping.params))
     for wall in scene.config.walls.values():
-        if wall.motion is not None and wall.motion.part.step_share is not None:
-            share *= float(wall.motion.part.step_share(wall.motion.part.course(wall.motion.params), mass))
+        share *= min([1.0, *(_share_left(stage.motion, mass) for stage in wall.stages)])
     return share
+
+
+def _share_left(motion: Chosen, mass: float) -> float:
+    part = motion.part
+    return 1.0 if part.step_share is None else float(part.step_share(part.course(motion.params), mass))
 
 
 def distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:

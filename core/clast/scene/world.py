@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from clast.config.beside import WallChoice
 from clast.engine.blueprint import Blueprint
 from clast.engine.cache_lines import on_line, on_lines
 from clast.engine.chunks import cut
@@ -17,7 +16,6 @@ from clast.engine.kernels.layout import (
     RADIUS,
     TERMS,
 )
-from clast.engine.long_records import long_row
 from clast.engine.records import fields, leaves, numbers
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
 from clast.engine.tables import (
@@ -28,11 +26,12 @@ from clast.engine.tables import (
     no_bonds,
     particle_tables,
 )
-from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs, wall_shapes
+from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs
 from clast.scene.scene import Scene
+from clast.scene.wall_rows import padded, wall_rows
 
-AT_REST = ("displacement", "velocity", "force", "moment", "force_sum", "moment_sum", "reference")
-"""Vectors of walls that are 0 at the start."""
+SUMMED = ("force", "moment", "force_sum", "moment_sum")
+"""What acts on walls."""
 
 
 def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
@@ -152,30 +151,17 @@ def relieve(scene: Scene, pairs: Pairs) -> None:
 def _walls(scene: Scene, plan: Blueprint) -> Walls:
     chosen = list(scene.config.walls.values())
     names = list(scene.config.materials)
-    lists: list[float] = []
-    shapes = [long_row(shape, lists) for _, shape in wall_shapes(scene)]
-    courses = [long_row(w.motion.part.course(w.motion.params), lists) if w.motion else [] for w in chosen]
+    rows = wall_rows(scene, plan)
     centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
     return Walls(
         shape_kind=np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
-        shape=_table(shapes),
-        motion_kind=np.array([_motion_kind(plan, wall) for wall in chosen], np.int64),
-        course=_table(courses),
+        shape=rows.shapes,
+        motion_kind=np.array([courses[0].kind for courses in rows.courses], np.int64),
+        course=padded([courses[0].row for courses in rows.courses], rows.width),
         material=np.array([names.index(wall.material) for wall in chosen], np.int64),
         centre=np.array(centres, float).reshape(-1, 3),
-        lists=np.array(lists, float),
-        pressing=np.zeros(len(chosen)),
-        pressing_sum=np.zeros(len(chosen)),
-        **{name: np.zeros((len(chosen), 3)) for name in AT_REST},
+        lists=rows.lists,
+        stage=np.zeros((len(chosen), 2), np.int64),
+        **{name: np.zeros((len(chosen), 3)) for name in ("displacement", "velocity", "reference", *SUMMED)},
+        **{name: np.zeros(len(chosen)) for name in ("pressing", "pressing_sum", "begun")},
     )
-
-
-def _motion_kind(plan: Blueprint, wall: WallChoice) -> int:
-    return len(plan.motions) if wall.motion is None else plan.motions.index(wall.motion.part)
-
-
-def _table(rows: list[list[float]]) -> Floats:
-    table = np.zeros((len(rows), max([0, *map(len, rows)])))
-    for k, row in enumerate(rows):
-        table[k, : len(row)] = row
-    return table

@@ -20,26 +20,31 @@ Curves = dict[str, NDArray[np.float64]]
 
 def claims(stop: Stop, params: Any) -> list[Claim]:
     """Return what a condition with parameters must keep to."""
-    drawn = st.lists(st.tuples(*[numbers(0.0, 1e7)] * (len(COLUMNS) + len(ON_DEMAND))), min_size=1, max_size=8)
+    own = tuple(name for name in stop.reads(params) if name not in COLUMNS)
+    drawn = st.lists(
+        st.tuples(*[numbers(0.0, 1e7)] * (len(COLUMNS) + len(ON_DEMAND) + len(own))), min_size=1, max_size=8
+    )
     return [
-        claim("a run in which nothing has happened goes on", lambda: _goes_on(stop, params)),
-        claim("it answers with a sentence, or with None", lambda rows: _answers(stop, params, curves(rows)), drawn),
+        claim("a run in which nothing has happened goes on", lambda: _goes_on(stop, params, own)),
+        claim(
+            "it answers with a sentence, or with None", lambda rows: _answers(stop, params, curves(rows, own)), drawn
+        ),
         claim(
             "the same curves give the same answer, and are left as they are",
-            lambda rows: _pure(stop, params, curves(rows)),
+            lambda rows: _pure(stop, params, curves(rows, own)),
             drawn,
         ),
     ]
 
 
-def curves(rows: list[tuple[float, ...]]) -> Curves:
-    """Return the curves of a compression with one row a sample, and every column that can be asked for."""
-    names = (*COLUMNS, *ON_DEMAND)
+def curves(rows: list[tuple[float, ...]], own: tuple[str, ...] = ()) -> Curves:
+    """Return the curves of a compression with one row a sample, every column that can be asked for, and some more."""
+    names = (*COLUMNS, *ON_DEMAND, *own)
     return {"time_s": np.arange(float(len(rows)))} | dict(zip(names, np.array(rows).T.copy(), strict=True))
 
 
-def _goes_on(stop: Stop, params: Any) -> None:
-    quiet = curves([(0.0,) * (len(COLUMNS) - 1) + (4.0,) + (1.0,) * len(ON_DEMAND)])
+def _goes_on(stop: Stop, params: Any, own: tuple[str, ...]) -> None:
+    quiet = curves([(0.0,) * (len(COLUMNS) - 1) + (4.0,) + (1.0,) * len(ON_DEMAND) + (0.0,) * len(own)], own)
     told = stop.reached(params, quiet)
     must(told is None, f"it ends a run at its first sample: {told!r}")
 

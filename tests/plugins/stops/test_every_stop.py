@@ -67,3 +67,19 @@ def test_strain_and_broken_bonds_are_reached_at_their_number():
 def test_a_condition_that_asks_for_a_column_that_there_is_not_is_refused():
     with pytest.raises(PluginError, match="asks for 'colour'; on demand there is unbalanced_force_ratio"):
         Stop(summary="odd", Params=Params, reached=lambda params, curves: None, columns=("colour",))
+
+
+def test_a_force_on_a_wall_is_its_length_or_its_component():
+    columns = {"force_upper_x_N": [0.0, 3.0], "force_upper_y_N": [0.0, 0.0], "force_upper_z_N": [0.0, -4.0]}
+    assert asked("force", {"above": 5.01}, **columns) is None
+    assert asked("force", {"above": 5.0}, **columns) == "the force on upper rose to 5 N"
+    assert asked("force", {"above": 3.9, "direction": [0, 0, -2]}, **columns) == "the force on upper rose to 4 N"
+    assert asked("force", {"above": None, "below": -3.9, "direction": [0, 0, 1]}, **columns) is not None
+    assert asked("force", {"above": None, "below": 4.99}, **columns) is None
+
+
+def test_time_counts_from_the_first_sample_and_stages_are_over_at_0():
+    assert asked("elapsed", {"time": 2.0}, time_s=[5.0, 6.0]) is None
+    assert asked("elapsed", {"time": 2.0}, time_s=[5.0, 7.0]) == "2 s have passed"
+    assert asked("stages_over", {}, stage_upper=[1.0, 2.0]) is None
+    assert asked("stages_over", {}, stage_upper=[2.0, 0.0]) == "all stages of upper are over"

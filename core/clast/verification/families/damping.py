@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.stops import Stops
 from clast.simulation import Simulation
 from clast.verification import needs
+from clast.verification.asking import Asking
 from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings
 from clast.verification.curves import Floats
@@ -57,27 +57,12 @@ def judge_local(bench: Bench) -> Findings:
     yield Sketch("a sphere sags under its weight", "time, ms", "distance from rest, share of the sag", lines)
 
 
-class Look:
-    """Observer that asks the scene's conditions, a few times in each swing."""
-
-    def __init__(self, simulation: Simulation, every: int) -> None:
-        self.stops, self.every = Stops(simulation.config), every
-
-    def next_step(self, step: int) -> int | None:
-        """Return the next step to look at."""
-        return (step // self.every + 1) * self.every
-
-    def observe(self, simulation: Simulation) -> None:
-        """Ask the conditions."""
-        self.stops.look(simulation, self.stops.extra(simulation))
-
-
 def judge_rest(bench: Bench) -> Findings:
     """See when the spheres count as at rest: once the last swing's forces are below the limit."""
     limit = 1e-3
     simulation = bench.start({"stop": [{"type": "at_rest", "limit": limit, "samples": LOOKS}]})
     alpha, half, kept = swing_of(simulation)
-    simulation.run([Look(simulation, round(half / LOOKS / simulation.dt))])
+    simulation.run([Asking(simulation, round(half / LOOKS / simulation.dt))])
     swings = log(limit / (1.0 + alpha)) / log(kept)
     yield Finding("time at which it counts as at rest, s", swings * half, simulation.time, 0.1)
     yield Finding("ended by a condition", 1.0, float(simulation.ended is not None), 0.0)

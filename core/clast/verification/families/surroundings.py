@@ -7,27 +7,34 @@ from typing import Any
 
 import numpy as np
 
+from clast.config.columns import wall_columns
 from clast.simulation import Simulation
+from clast.verification import needs
+from clast.verification.asking import Asking
 from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings
+from clast.verification.closed_forms.hertz import effective_modulus
 from clast.verification.curves import Floats
 from clast.verification.finding import Finding
 from clast.verification.reading import evaluation, follow, position, velocity
 from clast.verification.sketch import Line, Sketch
 
 G = 9.81
-LOOK = 100
-"""Steps between two looks."""
+LOOK, FINE = 100, 10
+"""Steps between two looks, and between two at which conditions are asked."""
 
 SEEN = 5e-3
 """When the impact on the loose plate is over, in s."""
 
-BOWL, EDGE, TABLE, LOOSE = 0, 1, 2, 3
+BOWL, EDGE, TABLE, LOOSE, PRESSED = range(5)
 """Numbers of the spheres."""
 
 STIFF, SMOOTH, EXACT, ROUNDING = 1e-2, 1e-4, 1e-8, 1e-11
 """Accuracy of closed forms of stiff bodies, that touch in a point; of what changes slowly; of sums of steps, within
 which a wall keeps one velocity; and of sums of ways that are known."""
+
+TURNED = 0.02
+"""How far a press may go beyond the way at which it turns: by that between two looks."""
 
 
 def wall(simulation: Simulation, name: str) -> int:
@@ -149,6 +156,33 @@ def judge_table(bench: Bench) -> Findings:
     yield Sketch("a plate that follows a table", "time, s", "displacement, mm", lines)
 
 
+def judge_stages(bench: Bench) -> Findings:
+    """Press a sphere to a force, let go of it almost, and press it again: the press turns where Hertz has the force."""
+    simulation = bench.start()
+    scene, press = simulation.scene, wall(simulation, "press")
+    ball, table = scene.config.materials["glass"], scene.config.materials["table"]
+    modulus = effective_modulus(ball, table)
+
+    def read(at: Simulation) -> dict[str, float]:
+        walls = at.world.walls
+        force = dict(zip(wall_columns(["press"]), walls.force[press].tolist(), strict=False))
+        way, stage = -float(walls.displacement[press, 2]), float(walls.stage[press, 0])
+        return {"time_s": at.time, "way": way, "stage": stage, **force}
+
+    asking = Asking(simulation, FINE, read)
+    simulation.run([asking])
+    way, stage, force = (np.array([row[name] for row in asking.rows]) for name in ("way", "stage", "force_press_z_N"))
+    for k, settings in enumerate(scene.config.walls["press"].stages):
+        until: Any = settings.until.params if settings.until is not None else None
+        turned = until.above if until.above is not None else until.below
+        expected = 2.0 * (0.75 * turned / (modulus * sqrt(scene.radius[PRESSED]))) ** (2.0 / 3.0)
+        yield Finding(f"way at the end of stage {k + 1}, m", expected, float(way[stage == k][-1]), TURNED)
+    yield Finding("stages that are over", 3.0, float(stage[-1]), 0.0)
+    closed = 4.0 / 3.0 * modulus * sqrt(scene.radius[PRESSED]) * (0.5 * np.maximum(way, 0.0)) ** 1.5
+    lines = (Line("Hertz", 1e3 * way, closed), Line("Clast", 1e3 * way[::25], force[::25], dots=True))
+    yield Sketch("a sphere that is pressed in stages", "way of the press, mm", "force, N", lines)
+
+
 def judge_frame(bench: Bench) -> Findings:
     """Watch free flight in a frame that turns: in the frame at rest it is straight."""
     simulation = bench.start()
@@ -182,7 +216,7 @@ FAMILY = Family(
     "Walls, their motions, and body forces",
     "Spheres without friction tell what surrounds them: one swings in a bowl as a pendulum, one is turned aside by the "
     "edge of a block, one is shaken on a table, one runs into a loose plate; one flies freely in a frame that turns; "
-    "and a plate follows a table.",
+    "a plate follows a table, and another presses a sphere in stages.",
     (
         Case(
             "wall_bowl",
@@ -218,6 +252,14 @@ FAMILY = Family(
             "surroundings",
             judge_table,
             "the displacements of the table, with straight lines between the rows, over and over",
+        ),
+        Case(
+            "motion_stages",
+            "a sphere that is pressed, let go and pressed again",
+            "surroundings",
+            judge_stages,
+            "Hertz: a force F is reached when both contacts together give way by 2 (3 F/(4 E* √r))^(2/3)",
+            (needs.hertzian,),
         ),
         Case(
             "force_frame",

@@ -1,0 +1,79 @@
+"""End at a force on a wall."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from clast import hookimpl
+from clast.config.quantities import Direction, Force
+from clast.maths.vec3 import norm
+from clast.parts.params import Params
+from clast.parts.stop import Curves, Stop
+from clast.plugins.registry import Registry
+
+
+class WallForce(Params):
+    r"""Holds when the force of the particles on a wall is above or below a value: to load to a force, and to unload.
+
+    Equation
+    --------
+    P ≥ ``above``,  or P ≤ ``below``
+
+    Symbols
+    -------
+    P : length of the force on the wall in N; with a ``direction``, its component along it
+
+    Limits
+    ------
+    It looks at samples, so the force may have gone beyond by what it changes from one sample to the next. ``below``
+    holds before anything touches the wall: it is for a stage that begins under load.
+    """
+
+    wall: Annotated[str, Field(examples=["upper"], description="Name of the wall")]
+    above: Annotated[Force | None, Field(examples=["10 N"], description="Force that must be reached from below")] = None
+    below: Annotated[Force | None, Field(description="Force that must be reached from above, instead")] = None
+    direction: Annotated[
+        Direction | None, Field(description="Direction along which the force counts; none: its length counts")
+    ] = None
+
+    @model_validator(mode="after")
+    def _one_bound(self) -> WallForce:
+        if (self.above is None) == (self.below is None):
+            given = "both" if self.above is not None else "neither"
+            raise ValueError(f"exactly one of above and below is needed; given {given}")
+        return self
+
+
+def reads(params: WallForce) -> list[str]:
+    """Return the columns of the force on the wall."""
+    return [f"force_{params.wall}_{c}_N" for c in "xyz"]
+
+
+def force_on(params: WallForce, curves: Curves) -> float:
+    """Return the force that counts at the last sample in N."""
+    vector: NDArray[np.float64] = np.array([curves[name][-1] for name in reads(params)])
+    if params.direction is None:
+        return float(np.linalg.norm(vector))
+    return float(vector @ np.array(params.direction)) / norm(params.direction)
+
+
+def reached(params: WallForce, curves: Curves) -> str | None:
+    """Tell that the force is reached."""
+    force = force_on(params, curves)
+    if params.above is not None:
+        return f"the force on {params.wall} rose to {force:.4g} N" if force >= params.above else None
+    assert params.below is not None
+    return f"the force on {params.wall} fell to {force:.4g} N" if force <= params.below else None
+
+
+@hookimpl
+def clast_register(registry: Registry) -> None:
+    """Offer the condition."""
+    registry.stop(
+        "force",
+        Stop(summary="holds when the force on a wall passes a value", Params=WallForce, reached=reached, reads=reads),
+    )
