@@ -82,11 +82,11 @@ def run_scene(
     Raises
     ------
     RunInterruptedError
-        After Ctrl-C or SIGTERM, with a checkpoint written.
+        After Ctrl-C or SIGTERM, or when ``time.wall_time`` is up, with a checkpoint written.
     RunError
         If the folder, the checkpoint or the run fails.
     """
-    listener, folder = listener or Listener(), Path(folder)
+    listener, folder, called = listener or Listener(), Path(folder), time.monotonic()
     session, goes_on = None, False
     try:
         with stoppable(), run_folder(folder, resume) as goes_on:
@@ -95,7 +95,7 @@ def run_scene(
             listener.building()
             simulation = Simulation(config, threads, listener.compiling)
             session = _Session(simulation, folder, goes_on, listener)
-            session.advance()
+            session.advance(called)
             return session.finish()
     except StopError as stop:  # before or after the step loop, which handles signals itself
         untouched = f"the checkpoint is as it was: {GO_ON}" if goes_on else "nothing was written yet"
@@ -149,12 +149,12 @@ class _Session:
         """Seconds spent in the step loop and its observers, by this session and those it goes on from."""
         return self.seconds_before + (time.perf_counter() - self.begun if self.begun is not None else 0.0)
 
-    def advance(self) -> None:
-        """Run to the end."""
+    def advance(self, called: float) -> None:
+        """Run to the end, or until the wall-clock time since the call is up."""
         simulation, listener = self.simulation, self.listener
         first = simulation.step
-        output = simulation.config.output
-        watch = Watch(listener.progress, self._save_what_is_sound, output.checkpoint)
+        interval, most = simulation.config.output.checkpoint, simulation.config.time.wall_time
+        watch = Watch(listener.progress, self._save_what_is_sound, interval, most, called)
         with watch:
             try:
                 simulation.advance_to(first)  # compiles

@@ -55,3 +55,17 @@ def test_a_stop_while_a_run_is_built_that_goes_on_says_that_its_checkpoint_is_th
     run_scene(config, tmp_path / "run")
     with pytest.raises(RunInterruptedError, match="SIGTERM; the checkpoint is as it was: go on with --resume"):
         run_scene(config, tmp_path / "run", resume=True, listener=Stopping())
+
+
+def test_a_run_whose_wall_clock_time_is_up_is_left_with_a_checkpoint_and_ends_in_the_same_bytes(tmp_path: Path) -> None:
+    scene = load(write(tmp_path, COLLISION), ["output.writers=[]"])
+    run_scene(scene, tmp_path / "whole")
+    told = (
+        r"stopped after 1e-09 s of wall-clock time \(time.wall_time\), at .* s, step \d+ of 4000; go on with --resume"
+    )
+    with pytest.raises(RunInterruptedError, match=told) as error:
+        run_scene(scene.changed({"time.wall_time": 1e-9}), tmp_path / "cut")
+    assert error.value.exit_code == 75
+    run_scene(scene.changed({"time.wall_time": "1 h"}), tmp_path / "cut", resume=True)
+    whole, cut = ((tmp_path / name / "curves.csv").read_bytes() for name in ("whole", "cut"))
+    assert whole == cut

@@ -223,6 +223,10 @@ class TimeSettings(Params):
     ] = None
     end: Annotated[End, Field(description="When the run ends")]
     allow_unstable: Annotated[bool, Field(description="Allow a time step above the limit")] = False
+    wall_time: Annotated[
+        Annotated[Time, Field(gt=0)] | None,
+        Field(description="Wall-clock time after which the run ends with a checkpoint, to be resumed"),
+    ] = None
 
 
 def _writers_or_default(given: Any, info: ValidationInfo) -> Any:

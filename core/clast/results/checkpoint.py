@@ -24,7 +24,7 @@ from clast.soundness.energy import Balance
 FILE = "checkpoint.h5"
 PREVIOUS = "checkpoint.previous.h5"
 DERIVED = ("numbers", "scratch")
-MAY_DIFFER = ("output.checkpoint", "output.writers", "reference", "description", "time.end")
+MAY_DIFFER = ("output.checkpoint", "output.writers", "reference", "description", "time.end", "time.wall_time")
 
 
 def save(folder: Path, simulation: Simulation, notes: Mapping[str, Any]) -> Path:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 LOOK_EVERY = 0.2
 GO_ON = "go on with --resume"
+OUT_OF_TIME = 75
+"""Exit code of a run whose wall-clock time is up: what ``sysexits.h`` calls a temporary failure, that is, try again."""
 
 
 class RunInterruptedError(RunError):
@@ -26,6 +28,18 @@ class RunInterruptedError(RunError):
     def __init__(self, number: int, advice: str = GO_ON) -> None:
         super().__init__(f"stopped by {signal.Signals(number).name}; {advice}")
         self.exit_code = 128 + number
+
+
+class OutOfTimeError(RunInterruptedError):
+    """The wall-clock time that the run was given is up: it ends as after Ctrl-C, with an exit code of its own."""
+
+    def __init__(self, most: float, simulation: Simulation) -> None:
+        RunError.__init__(
+            self,
+            f"stopped after {most:g} s of wall-clock time (time.wall_time), at {simulation.time:.4g} s, step "
+            f"{simulation.step} of {simulation.last_step}; {GO_ON}",
+        )
+        self.exit_code = OUT_OF_TIME
 
 
 class StopError(KeyboardInterrupt):
@@ -102,12 +116,22 @@ class Watch:
         Called when it is time for a checkpoint.
     interval : float
         Wall-clock time between checkpoints in s.
+    most : float, optional
+        Wall-clock time in s after which the run ends as after a signal.
+    begun : float, optional
+        When that time began to count, by ``time.monotonic``.
     """
 
     def __init__(
-        self, show: Callable[[Simulation, float], Any], checkpoint: Callable[[], Any], interval: float
+        self,
+        show: Callable[[Simulation, float], Any],
+        checkpoint: Callable[[], Any],
+        interval: float,
+        most: float | None = None,
+        begun: float = 0.0,
     ) -> None:
         self.show, self.checkpoint, self.interval = show, checkpoint, interval
+        self.most, self.begun = most, begun
         self.stride = 1
         self.due = 0
         self.looked = self.saved = time.monotonic()
@@ -138,7 +162,7 @@ class Watch:
         Raises
         ------
         RunInterruptedError
-            After a signal.
+            After a signal, or when the wall-clock time is up.
         """
         now = time.monotonic()
         if self.step is not None:
@@ -149,6 +173,8 @@ class Watch:
         self.due = simulation.step + self.stride
         if self.signal:
             raise RunInterruptedError(self.signal)
+        if self.most is not None and now - self.begun >= self.most and simulation.step < simulation.last_step:
+            raise OutOfTimeError(self.most, simulation)
         if now - self.saved >= self.interval:
             self.checkpoint()
             self.saved = time.monotonic()
