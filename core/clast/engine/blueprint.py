@@ -143,7 +143,12 @@ class Blueprint:
     @property
     def spin(self) -> bool:
         """Whether particles spin."""
-        return self.bonds is not None or self.friction or self.applied_loads
+        return self.bonds is not None or self.friction or self.applied_loads or self.body_loads
+
+    @property
+    def body_loads(self) -> bool:
+        """Whether some body force is a load on each particle, of its own size."""
+        return any(force.load is not None for force in self.body_forces)
 
     @property
     def friction(self) -> bool:
@@ -206,7 +211,7 @@ class Blueprint:
             for motion in self.motions
             for function in (motion.velocity, motion.way, motion.answer, motion.start)
         ]
-        found += [force.acceleration for force in self.body_forces]
+        found += [function for force in self.body_forces for function in (force.acceleration, force.load)]
         found += [self.damping.braking] if self.damping is not None else []
         return [function for function in found if function is not None]
 

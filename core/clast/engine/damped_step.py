@@ -12,7 +12,7 @@ PROBED = tuple(2.0**k for k in range(-8, 5))
 
 
 def stable_step(eigenvalue: Callable[[float], float], damping_factor: Callable[[float], float]) -> float:
-    """Return the largest stable step in s of M a + C v + K u = 0; infinite where nothing swings.
+    """Return the largest stable step in s of M a + C v + K u = 0; infinite where nothing swings or is dragged.
 
     At the limit the fastest mode changes sign from step to step. For one oscillator that makes the limit of Clast's
     integrators 2/ω (√(1 + (g ζ/2)²) − g ζ/2), each with a number g of its own; for many degrees of freedom it makes
@@ -28,9 +28,10 @@ def stable_step(eigenvalue: Callable[[float], float], damping_factor: Callable[[
         Of the integrator.
     """
     undamped = eigenvalue(0.0)
-    if not undamped > 0.0:
-        return inf
     reach, g = damping_factor(0.0), sensitivity(damping_factor)
+    if not undamped > 0.0:
+        dragged = g * eigenvalue(1.0)
+        return 4.0 * reach * reach / dragged if dragged > 0.0 else inf
     x = 0.5 * sqrt(undamped) / reach  # 1/Δt
     points = [(0.0, undamped), (x, eigenvalue(g * x) if g > 0.0 else undamped)]
     for _ in range(MOST):

@@ -47,13 +47,21 @@ def _motions(plan: Blueprint) -> list[str]:
 
 def body_text(plan: Blueprint) -> str:
     """Return what binds the body forces of a scene."""
-    lines, total, at = [], "ZERO", 0
+    lines, loads, total, at = [], ["force, torque = ZERO, ZERO"], "ZERO", 0
     for k, force in enumerate(plan.body_forces):
         values = [f"row[{at + n}]" for n in range(width(force.Numbers))]
         at += len(values)
-        lines += [bind(f"acceleration_{k}", force.acceleration), bind_record(f"Numbers{k}", force.Numbers)]
-        total = f"add({total}, acceleration_{k}({construct(force.Numbers, f'Numbers{k}', values)}, x, v, time))"
+        numbers = construct(force.Numbers, f"Numbers{k}", values)
+        lines.append(bind_record(f"Numbers{k}", force.Numbers))
+        if force.acceleration is not None:
+            lines.append(bind(f"acceleration_{k}", force.acceleration))
+            total = f"add({total}, acceleration_{k}({numbers}, x, v, time))"
+        else:
+            lines.append(bind(f"load_{k}", force.load))
+            loads.append(f"more, turning = load_{k}({numbers}, x, v, w, radius, time)")
+            loads.append("force, torque = add(force, more), add(torque, turning)")
     lines.append(function("body_acceleration", "row, x, v, time", f"return {total}"))
+    lines.append(function("body_load", "row, x, v, w, radius, time", [*loads, "return force, torque"]))
     return "\n".join(lines)
 
 

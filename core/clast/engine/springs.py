@@ -79,6 +79,7 @@ def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
         bond_springs(scene, bodies, everything),
         contact_springs(scene, responses, bodies, pairs, everything & (not bonded_pairs_touch)),
         wall_springs(scene, responses, bodies, near, still),
+        drag_springs(scene, bodies, scene.velocity),
     )
 
 
@@ -111,6 +112,20 @@ def bond_springs(scene: Scene, bodies: Bodies, intact: NDArray[np.bool_]) -> Spr
     normal = d / np.where(length > 0.0, length, 1.0)[:, None]
     arms = 0.5 * np.column_stack([length, length])
     return Springs(first, second, normal, arms, stiffness[intact], damping_coefficients(scene)[intact])
+
+
+def drag_springs(scene: Scene, bodies: Bodies, velocity: Floats) -> Springs:
+    """Return the dashpots that body forces are to every particle, with velocities (n, 3) in m/s."""
+    found = [no_springs()]
+    n = len(bodies.radius)
+    for chosen in scene.config.body_forces:
+        if chosen.part.damping is not None:
+            numbers = chosen.part.numbers(chosen.params, scene.config.time.mass_scaling)
+            moving, turning = chosen.part.damping(numbers, bodies.radius, velocity)
+            damping = np.column_stack([moving, moving, turning, turning])
+            normal, still = np.tile([0.0, 0.0, 1.0], (n, 1)), np.zeros((n, 4))
+            found.append(Springs(np.arange(n), np.full(n, n), normal, np.zeros((n, 2)), still, damping))
+    return joined(*found)
 
 
 def contact_springs(

@@ -9,9 +9,18 @@ import numpy as np
 from clast.config.sections import StepRule
 from clast.engine.blueprint import Blueprint
 from clast.engine.damped_step import sensitivity, stable_step
-from clast.engine.kernels.layout import FIRST, INVERSE_INERTIA, INVERSE_MASS, RADIUS, X
+from clast.engine.kernels.layout import FIRST, INVERSE_INERTIA, INVERSE_MASS, RADIUS, V, X
 from clast.engine.local_bounds import rough_bound
-from clast.engine.springs import Bodies, Springs, bond_springs, contact_responses, contact_springs, joined, wall_springs
+from clast.engine.springs import (
+    Bodies,
+    Springs,
+    bond_springs,
+    contact_responses,
+    contact_springs,
+    drag_springs,
+    joined,
+    wall_springs,
+)
 from clast.engine.state import World
 from clast.engine.tables import intact
 from clast.engine.vibration import largest_eigenvalue
@@ -73,7 +82,7 @@ class StepKeeper:
 
     def next_look(self, step: int) -> int | None:
         """Return the next step at which to look; None in scenes whose limit cannot fall."""
-        if self.plan.contacts is None:
+        if self.plan.contacts is None and not any(force.damping for force in self.plan.body_forces):
             return None
         if step < self.every:  # first contacts stiffen fast: look after 64, 128, 256, … steps
             return min(self.every, max(SOON, 1 << int(step).bit_length()))
@@ -136,7 +145,7 @@ class StepKeeper:
         return bond_springs(self.scene, self.bodies(world), intact(world.bonds))
 
     def contacts(self, world: World) -> Springs:
-        """Return the springs of everything that touches."""
+        """Return the springs of everything that touches, and the dashpots of body forces."""
         bodies, pairs, near = self.bodies(world), world.pairs, world.wall_pairs
         once = (pairs.sides & FIRST) > 0
         candidates = np.column_stack([pairs.first[once], pairs.second[once]]).astype(np.int64)
@@ -145,6 +154,7 @@ class StepKeeper:
         return joined(
             contact_springs(self.scene, self.responses, bodies, candidates, holds),
             wall_springs(self.scene, self.responses, bodies, near_walls, world.walls.displacement),
+            drag_springs(self.scene, bodies, world.particles.twist[:, V : V + 3]),
         )
 
     def _smaller(self, dt: float, limit: float, first_dt: float) -> float:

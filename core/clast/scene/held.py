@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
+from clast.maths.vec3 import ZERO, Vec
 from clast.parts.wall import Pressed
 from clast.scene.plan import wall_shapes
 from clast.scene.scene import Scene
@@ -45,13 +46,20 @@ def _pushes(scene: Scene) -> Iterator[tuple[str, int | None, Floats]]:
     """Yield what pushes, its number among the walls if it is one, and the unit vector along which it does."""
     for k, chosen in enumerate(scene.config.body_forces):
         numbers = chosen.part.numbers(chosen.params, scene.config.time.mass_scaling)
-        pull = np.array(chosen.part.acceleration(numbers, tuple(scene.position[0].tolist()), (0.0, 0.0, 0.0), 0.0))
+        pull = _pull(chosen, numbers, tuple(scene.position[0].tolist()), float(scene.radius[0]))
         if pull.any():
             yield f"body_forces.{k} ({chosen.name})", None, pull / np.linalg.norm(pull)
     for w, (name, wall) in enumerate(scene.config.walls.items()):
         way = np.zeros(3) if wall.motion is None else _direction(wall.motion)
         if way.any():
             yield f"walls.{name}", w, way / np.linalg.norm(way)
+
+
+def _pull(chosen: Chosen, numbers: Any, x: Vec, radius: float) -> Floats:
+    """Return what a body force does to a particle at rest, as an acceleration or a force."""
+    if chosen.part.acceleration is not None:
+        return np.array(chosen.part.acceleration(numbers, x, ZERO, 0.0))
+    return np.array(chosen.part.load(numbers, x, ZERO, ZERO, radius, 0.0)[0])
 
 
 def _direction(motion: Chosen) -> Floats:

@@ -18,6 +18,7 @@ from .layout import (
     INVERSE_INERTIA,
     INVERSE_MASS,
     LANES,
+    RADIUS,
     TURN_Q,
     TURN_W,
     WALL_WORK,
@@ -34,12 +35,14 @@ from .slots import (
     ANSWERING,
     APPLIED_LOADS,
     BODY_FORCES,
+    BODY_LOADS,
     BRAKES,
     ORIENTATION,
     SPIN,
     STAGES,
     VELOCITY_FORCES,
     body_acceleration,
+    body_load,
     braking,
     wall_answer,
     wall_start,
@@ -150,6 +153,14 @@ def body_force(particles: Particles, k: int, numbers: Numbers, time: float) -> V
 
 
 @inlined
+def load_by_body(particles: Particles, k: int, numbers: Numbers, time: float) -> tuple[Vec, Vec]:
+    """Return the force and the torque of body forces on particle k."""
+    x, v, w = row(particles.pose, k, X), row(particles.seen, k, V), row(particles.seen, k, W)
+    found: tuple[Vec, Vec] = body_load(numbers.body, x, v, w, particles.pose[k, RADIUS], time)
+    return found
+
+
+@inlined
 def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: float, book: Floats, span: float) -> None:
     """Book the work on particle k, since the forces before, of body forces, applied loads, and what drives it.
 
@@ -163,6 +174,9 @@ def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: floa
     if APPLIED_LOADS:
         power = dot(row(particles.applied, k, F), v) + dot(row(particles.applied, k, M), w)
         book[APPLIED_WORK] += span * power
+    if BODY_LOADS:
+        force, torque = load_by_body(particles, k, numbers, time)
+        book[BODY_WORK] += span * (dot(force, v) + dot(torque, w))
     per_mass = particles.body[k, INVERSE_MASS]
     if per_mass == 0.0:
         power = dot(row(particles.load, k, F), v) + dot(row(particles.load, k, M), w)
@@ -176,6 +190,11 @@ def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: floa
 def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> None:
     """Turn loads and body forces on particle k into accelerations."""
     load, acceleration = particles.load, particles.acceleration
+    if BODY_LOADS:
+        force, torque = load_by_body(particles, k, numbers, time)
+        for c in range(3):
+            load[k, F + c] += force[c]
+            load[k, M + c] += torque[c]
     per_mass, per_inertia = particles.body[k, INVERSE_MASS], particles.body[k, INVERSE_INERTIA]
     set_half_row(acceleration, k, F, per_mass, load)
     if SPIN:
