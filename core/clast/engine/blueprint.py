@@ -131,6 +131,11 @@ class Blueprint:
         return self.step_share * self.integrator.damping_factor(zeta)
 
     @property
+    def manifolds(self) -> bool:
+        """Whether particles can touch some wall in several places."""
+        return any(wall.touches is not None for wall in self.walls)
+
+    @property
     def answering(self) -> bool:
         """Whether some wall answers to the force on it."""
         return any(motion.answer is not None for motion in self.motions)
@@ -205,7 +210,7 @@ class Blueprint:
             found += [self.contacts.law.load, self.contacts.law.energy, self.contacts.law.reach]
             found += [self.contacts.law.losses] if self.ledger else []
             found += _rolling_functions(self.contacts, self.ledger)
-        found += [wall.nearest for wall in self.walls]
+        found += [function for wall in self.walls for function in (wall.nearest, wall.touches)]
         found += [
             function
             for motion in self.motions

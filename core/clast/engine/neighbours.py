@@ -17,6 +17,8 @@ from clast.parts.neighbour_search import NeighbourSearch
 from clast.scene.scene import Scene
 
 NearWalls = Callable[..., None]
+MOST_SLOTS = 64
+"""Contacts that a particle can have with one wall at a time."""
 
 
 class Skin(NamedTuple):
@@ -88,10 +90,22 @@ def find_wall_pairs(
     """Return the particles that can come to touch a wall, with the history of those that were known."""
     near = np.zeros((len(walls.shape_kind), len(particles.pose)), np.uint8)
     near_walls(particles, walls, slack, wall_slack, near)
-    table = np.argwhere(near)
-    before, now = key(old.wall, old.particle), key(table[:, 0], table[:, 1])
+    wall, particle = np.argwhere(near).T
+    rows = walls.slots[wall]
+    wall, particle, slot = np.repeat(wall, rows), np.repeat(particle, rows), counted_out(rows)
+    before = key(old.wall, old.particle.astype(np.int64) * MOST_SLOTS + old.slot)
+    now = key(wall, particle * MOST_SLOTS + slot)
     touching, history = carried(before, now, old.touching, old.history)
-    return WallPairs(table[:, 0].astype(np.uint32), table[:, 1].astype(np.uint32), touching, history)
+    return WallPairs(wall.astype(np.uint32), particle.astype(np.uint32), slot.astype(np.uint32), touching, history)
+
+
+def counted_out(counts: Integers) -> Integers:
+    """Return 0, 1, … up to each of some counts, one after the other.
+
+    >>> counted_out(np.array([1, 3, 2])).tolist()
+    [0, 0, 1, 2, 0, 1]
+    """
+    return np.asarray(np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
 
 
 def key(first: NDArray[Any], second: NDArray[Any]) -> Integers:

@@ -16,11 +16,16 @@ COURSE = [
 
 def walls_text(plan: Blueprint) -> str:
     """Return what binds the shapes and motions of a scene's walls."""
-    lines, near = [], []
+    lines, near, places = [], [], []
     for k, wall in enumerate(plan.walls):
         lines += [bind(f"nearest_{k}", wall.nearest), bind_record(f"Shape{k}", wall.Shape)]
-        near.append(f"nearest_{k}({construct_long(wall.Shape, f'Shape{k}')}, x)")
+        shape = construct_long(wall.Shape, f"Shape{k}")
+        near.append(f"nearest_{k}({shape}, x)")
+        if wall.touches is not None:
+            lines.append(bind(f"touches_{k}", wall.touches))
+        places.append(f"touches_{k}({shape}, x, reach, found)" if wall.touches else "0")
     lines.append(dispatch("wall_nearest", "walls, w, x", near, "None", [SHAPE]))
+    lines.append(dispatch("wall_touches", "walls, w, x, reach, found", places, "0", [SHAPE]))
     return "\n".join([*lines, *_motions(plan)])
 
 

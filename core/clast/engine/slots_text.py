@@ -86,6 +86,7 @@ def _flags(plan: Blueprint) -> str:
         "RESTS": contacts is not None and contacts.rests,
         "WALLS": bool(plan.walls),
         "CURVED_WALLS": plan.curved_walls,
+        "MANIFOLDS": plan.manifolds,
         "ANSWERING": plan.answering,
         "BODY_FORCES": any(force.acceleration is not None for force in plan.body_forces),
         "BODY_LOADS": plan.body_loads,

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from clast.engine.blueprint import Blueprint
 from clast.engine.response import Response, respond, rolling_response
+from clast.engine.wall_feet import feet
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
-from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs, wall_shapes
+from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs
 from clast.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -171,19 +172,18 @@ def wall_springs(scene: Scene, responses: Responses, bodies: Bodies, near: Integ
     displacement : (w, 3) float64
         How far each wall has moved, in m.
     """
-    shapes = wall_shapes(scene)
     names = list(scene.config.materials)
-    materials = [names.index(wall.material) for wall in scene.config.walls.values()]
-    rows, reach = [], largest_reach(scene)
-    for w, k in near.tolist() if responses else ():
-        nearest, shape = shapes[w]
-        found = nearest(shape, tuple((bodies.position[k] - displacement[w]).tolist()))
-        if found.distance < bodies.radius[k] + reach and bodies.inverse_mass[k] > 0.0:
-            rows.append((k, materials[w], found.distance, *found.normal))
-    if not rows:
+    rows, materials, reach = [], [], bodies.radius + largest_reach(scene)
+    for w, wall in enumerate(scene.config.walls.values() if responses else ()):
+        mine = near[near[:, 0] == w, 1]
+        mine = mine[bodies.inverse_mass[mine] > 0.0]
+        found = feet(wall.shape.part, wall.shape.params, bodies.position[mine] - displacement[w], reach[mine])
+        rows.append(np.column_stack([mine[found.point], found.distance, found.normal]))
+        materials.append(np.full(len(found.point), names.index(wall.material)))
+    table = np.concatenate([np.zeros((0, 5)), *rows])
+    if len(table) == 0:
         return no_springs()
-    table = np.array(rows, float)
-    particle, distance = table[:, 0].astype(np.int64), table[:, 2]
+    particle, distance = table[:, 0].astype(np.int64), table[:, 1]
     radius = bodies.radius[particle]
     lever = distance if scene.config.contacts and scene.config.contacts.lever == "contact_point" else radius
     return touching_springs(
@@ -191,8 +191,8 @@ def wall_springs(scene: Scene, responses: Responses, bodies: Bodies, near: Integ
         bodies,
         first=particle,
         second=np.full(len(particle), len(bodies.radius)),
-        materials=np.column_stack([scene.material[particle], table[:, 1].astype(np.int64)]),
-        normal=table[:, 3:],
+        materials=np.column_stack([scene.material[particle], np.concatenate(materials)]),
+        normal=table[:, 2:],
         arms=np.column_stack([lever, np.zeros(len(lever))]),
         radius=radius,
         overlap=radius - distance,

@@ -67,10 +67,14 @@ class Pairs(NamedTuple):
 
 
 class WallPairs(NamedTuple):
-    """Particles near walls, ordered by wall and particle."""
+    """Particles near walls, ordered by wall and particle, with a row for each contact that they may have.
+
+    ``slot`` numbers the rows of a particle at a wall.
+    """
 
     wall: Indices
     particle: Indices
+    slot: Indices
     touching: Bytes
     history: Floats
 
@@ -81,6 +85,7 @@ class Walls(NamedTuple):
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
     flat; ``lists`` holds what shapes and courses have of any length. ``begun`` (w,) is when the present stage of each
     wall's motion began in s, ``stage`` (w, 2) its number and that of the sample at which it began.
+    ``slots`` (w,) is the most contacts of a particle with each wall, ``places`` (2 slots, 4) room to find them.
     """
 
     shape_kind: Integers
@@ -101,6 +106,8 @@ class Walls(NamedTuple):
     lists: Floats
     begun: Floats
     stage: Integers
+    slots: Integers
+    places: Floats
 
 
 class Cracks(NamedTuple):

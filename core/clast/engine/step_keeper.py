@@ -149,7 +149,7 @@ class StepKeeper:
         bodies, pairs, near = self.bodies(world), world.pairs, world.wall_pairs
         once = (pairs.sides & FIRST) > 0
         candidates = np.column_stack([pairs.first[once], pairs.second[once]]).astype(np.int64)
-        near_walls = np.column_stack([near.wall, near.particle]).astype(np.int64)
+        near_walls = np.column_stack([near.wall, near.particle]).astype(np.int64)[near.slot == 0]
         holds = intact(world.bonds) if not self.bonded_pairs_touch else np.zeros(len(self.scene.ends), bool)
         return joined(
             contact_springs(self.scene, self.responses, bodies, candidates, holds),

@@ -183,7 +183,7 @@ def empty_pairs(chunks: Indices, remembered: int) -> Pairs:
 def empty_wall_pairs(remembered: int) -> WallPairs:
     """Return an empty list of particles near walls."""
     none = np.zeros(0, np.uint32)
-    return WallPairs(none, none.copy(), np.zeros(0, np.uint8), np.zeros((0, remembered)))
+    return WallPairs(none, none.copy(), none.copy(), np.zeros(0, np.uint8), np.zeros((0, remembered)))
 
 
 def crack_table(chunks: Indices, ends: Integers) -> Cracks:

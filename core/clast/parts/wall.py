@@ -60,6 +60,11 @@ def never(params: Any) -> bool:
     return False
 
 
+def once(params: Any) -> int:
+    """Return 1: so many contacts a particle has with a wall of which nothing else is known."""
+    return 1
+
+
 @dataclass(frozen=True)
 class Wall:
     """The part a plugin registers with ``registry.wall(name, Wall(...))``.
@@ -77,6 +82,12 @@ class Wall:
         For a centre x given in the wall's own frame (its displacement already subtracted).
     centre : (params) -> vector
         Point about which the wall's moment is reported.
+    touches : (shape, x, reach, found) -> int, optional
+        For surfaces that a sphere can touch in several places. Writes distance and normal, one row each, of every place
+        that is nearer to x than ``reach`` and than the surface around it, the nearest first; returns how many there
+        are, at most as many as ``found`` has rows.
+    slots : (params) -> int, optional
+        Most contacts that a particle has with such a wall at a time, 1 to 64.
     mesh : (params, size) -> (points, triangles)
         For pictures: (p, 3) float64 in m and (t, 3) int64; ``size`` in m bounds what is drawn of infinite walls.
     flat : (params) -> bool, optional
@@ -98,6 +109,8 @@ class Wall:
     flat: Callable[[Any], bool] = never
     girth: Callable[[Any], float] | None = None
     section: Callable[[Any], float] | None = None
+    touches: Callable[..., int] | None = None
+    slots: Callable[[Any], int] = once
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.scene.plan import wall_shapes
+from clast.engine.wall_feet import feet
 from clast.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -29,18 +29,18 @@ def near_walls(scene: Scene, position: Floats, displacement: Floats) -> Integers
         How far each wall has moved, in m.
     """
     largest = float(scene.radius.max())
-    shapes = wall_shapes(scene)
+    walls = list(scene.config.walls.values())
     if len(position) <= FEW:
-        return np.argwhere(np.ones((len(shapes), len(position)), bool))
+        return np.argwhere(np.ones((len(walls), len(position)), bool))
     width = WIDTH * largest
     cell = np.floor((position - position.min(axis=0)) / width)
     place, member = np.unique(cell, axis=0, return_inverse=True)
     middle = position.min(axis=0) + width * (place + 0.5)
-    reach = largest + 0.5 * np.sqrt(3.0) * width * (1.0 + 1e-9)
+    reach = np.full(len(middle), largest + 0.5 * np.sqrt(3.0) * width * (1.0 + 1e-9))
     rows = []
-    for w, (nearest, shape) in enumerate(shapes):
-        away = middle - displacement[w]
-        near = np.array([nearest(shape, tuple(x)).distance < reach for x in away.tolist()], bool)
+    for w, wall in enumerate(walls):
+        near = np.zeros(len(middle), bool)
+        near[feet(wall.shape.part, wall.shape.params, middle - displacement[w], reach).point] = True
         here = np.nonzero(near[member.ravel()])[0]
         rows.append(np.column_stack([np.full(len(here), w), here]))
     return np.concatenate([np.zeros((0, 2), np.int64), *rows])

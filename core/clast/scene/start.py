@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
 from clast.config.sections import Domain
+from clast.engine.wall_feet import feet
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
-from clast.scene.plan import material_pairs, wall_shapes
+from clast.scene.plan import material_pairs
 from clast.scene.scatter import multiplied, refuse_beyond_bounds, scatter_entries
 from clast.scene.scene import Scene
 
@@ -183,14 +184,12 @@ def _refuse_wall_overlaps(scene: Scene) -> None:
     assert contacts is not None
     still = np.zeros((len(scene.config.walls), 3))
     near = near_walls(scene, scene.position, still)
-    for w, (name, (nearest, shape)) in enumerate(zip(scene.config.walls, wall_shapes(scene), strict=True)):
+    for w, (name, wall) in enumerate(scene.config.walls.items()):
         here = near[near[:, 0] == w, 1]
         here = here[~scene.prescribed[here]]
-        if len(here) == 0:
-            continue
-        distance = np.array([nearest(shape, tuple(x)).distance for x in scene.position[here].tolist()])
+        found = feet(wall.shape.part, wall.shape.params, scene.position[here], scene.radius[here])
         share = np.zeros(len(scene.radius))
-        share[here] = 1.0 - distance / scene.radius[here]
+        np.maximum.at(share, here[found.point], 1.0 - found.distance / scene.radius[here[found.point]])
         k = int(np.argmax(share))
         if share[k] > contacts.start_overlap:
             raise scene.config.problem(

@@ -153,6 +153,7 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
     names = list(scene.config.materials)
     rows = wall_rows(scene, plan)
     centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
+    slots = np.array([wall.shape.part.slots(wall.shape.params) for wall in chosen], np.int64)
     return Walls(
         shape_kind=np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
         shape=rows.shapes,
@@ -162,6 +163,8 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         centre=np.array(centres, float).reshape(-1, 3),
         lists=rows.lists,
         stage=np.zeros((len(chosen), 2), np.int64),
+        slots=slots,
+        places=np.zeros((2 * int(slots.max(initial=1)), 4)),
         **{name: np.zeros((len(chosen), 3)) for name in ("displacement", "velocity", "reference", *SUMMED)},
         **{name: np.zeros(len(chosen)) for name in ("pressing", "pressing_sum", "begun")},
     )

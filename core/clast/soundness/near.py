@@ -60,8 +60,8 @@ class Nearness:
     @cached_property
     def walls(self) -> Near:
         """Wall and particle."""
-        near = self.world.wall_pairs
-        return _near(near.wall, near.particle, self.at_walls)
+        near, counts = self.world.wall_pairs, self.at_walls[:, 3] > -np.inf
+        return _near(near.wall[counts], near.particle[counts], self.at_walls[counts])
 
 
 def _near(first: Any, second: Any, found: Floats) -> Near:

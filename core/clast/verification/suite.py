@@ -16,6 +16,7 @@ from clast.verification.families import (
     damping,
     fluid,
     impacts,
+    meshes,
     oblique_impacts,
     packings,
     rotations,
@@ -45,6 +46,7 @@ FAMILIES: tuple[Family, ...] = (
     fluid.FAMILY,
     time_steps.FAMILY,
     surroundings.FAMILY,
+    meshes.FAMILY,
     packings.FAMILY,
     whole_runs.FAMILY,
 )

@@ -8,7 +8,7 @@ import numpy as np
 
 from clast.engine.compiler import compiled, inlined, routine
 from clast.engine.state import Floats, Indices, Numbers, Pairs, Particles, WallPairs, Walls, World
-from clast.maths.vec3 import dot, scale, sub
+from clast.maths.vec3 import dot, scale
 from clast.parts.contact_law import NO_DRAG, Drag, Touch
 
 from .bond_lane import gather as gather_ends
@@ -36,7 +36,6 @@ from .layout import (
     VISCOUS,
     V,
     W,
-    X,
 )
 from .motion import drift, half_kick, turn_all
 from .slots import (
@@ -70,9 +69,9 @@ from .slots import (
     read_reference,
     read_uniforms,
     row_constants,
-    wall_nearest,
 )
-from .wall_sweep import wall_constants, wall_reach, wall_touch
+from .wall_places import place_on_wall
+from .wall_sweep import farthest, wall_constants, wall_reach, wall_touch
 
 SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 """Time since the last force evaluation when a step is over, as a fraction of the step."""
@@ -267,8 +266,7 @@ def wall_energy(
     """Return the elastic energy of a particle and a wall, 0 where they do not touch."""
     numbers = world.numbers
     w, k = pairs.wall[p], pairs.particle[p]
-    x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
-    near = wall_nearest(walls, w, x)
+    near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
     radius = particles.pose[k, RADIUS]
     if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
         return 0.0

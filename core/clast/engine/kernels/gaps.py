@@ -11,7 +11,8 @@ from clast.maths.vec3 import Vec, dot, sub
 from .contact_sweep import joined
 from .lanes import row
 from .layout import FIRST, RADIUS, X
-from .slots import BONDED_PAIRS_TOUCH, CONTACTS, WALLS, wall_nearest
+from .slots import BONDED_PAIRS_TOUCH, CONTACTS, WALLS
+from .wall_places import place_on_wall
 
 
 @compiled
@@ -25,7 +26,8 @@ def gaps(world: World, between: Floats, at_walls: Floats) -> None:
         For each pair the unit vector from i to j and the overlap in m, below 0 for a gap; the overlap is −∞ where the
         pair does not count: in rows that another chunk has too, and where a bond holds in the contact's stead.
     at_walls : (q, 4) float64
-        For each particle near a wall the unit vector to the wall, and the overlap in m.
+        For each particle near a wall the unit vector to the wall, and the overlap in m; −∞ in rows without a contact,
+        at walls that can be touched in several places.
     """
     if CONTACTS:
         for k in range(len(world.pairs.first)):
@@ -35,9 +37,8 @@ def gaps(world: World, between: Floats, at_walls: Floats) -> None:
             write_pair(world, k, counts, between)
     if WALLS:
         for p in range(len(world.wall_pairs.wall)):
-            w, k = world.wall_pairs.wall[p], world.wall_pairs.particle[p]
-            x = sub(row(world.particles.pose, k, X), row(world.walls.displacement, w, 0))
-            near = wall_nearest(world.walls, w, x)
+            k = world.wall_pairs.particle[p]
+            near = place_on_wall(world.particles, world.walls, world.wall_pairs, p, world.particles.pose[k, RADIUS])
             write(at_walls, p, near.normal, world.particles.pose[k, RADIUS] - near.distance)
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from clast.engine.compiler import compiled
+from clast.engine.compiler import compiled, inlined
 from clast.engine.state import Bytes, Floats, Particles, Walls
-from clast.maths.vec3 import sub
+from clast.maths.vec3 import Vec, sub
 
 from .lanes import row
 from .layout import INVERSE_MASS, RADIUS
-from .slots import WALLS, wall_nearest
+from .slots import MANIFOLDS, WALLS, wall_nearest, wall_touches
 
 
 @compiled
@@ -31,6 +31,13 @@ def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: fl
                 if particles.present[k] == 0 or particles.body[k, INVERSE_MASS] == 0.0:
                     continue
                 x = sub(row(particles.pose, k, 0), row(walls.displacement, w, 0))
-                found = wall_nearest(walls, w, x)
-                if found.distance < particles.pose[k, RADIUS] + slack[k] + wall_slack:
+                if reaches_wall(walls, w, x, particles.pose[k, RADIUS] + slack[k] + wall_slack):
                     near[w, k] = 1
+
+
+@inlined
+def reaches_wall(walls: Walls, w: int, x: Vec, reach: float) -> bool:
+    """Tell whether a wall is nearer to x than ``reach``; one of many faces need not find the nearest."""
+    if MANIFOLDS and walls.slots[w] > 1:
+        return bool(wall_touches(walls, w, x, reach, walls.places) > 0)
+    return bool(wall_nearest(walls, w, x).distance < reach)

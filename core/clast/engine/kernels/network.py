@@ -29,9 +29,9 @@ from .slots import (
     read_contact_constants,
     read_history,
     row_constants,
-    wall_nearest,
 )
-from .wall_sweep import wall_constants, wall_reach, wall_touch
+from .wall_places import place_on_wall
+from .wall_sweep import farthest, wall_constants, wall_reach, wall_touch
 
 FREE_LANES = max(HISTORY_BASE + HISTORY + 1, CONTACT_FREE + 1) * LANES
 
@@ -120,7 +120,7 @@ def write_wall_contact(world: World, p: int, time: float, place: int, output: Fl
     particles, walls, pairs, numbers = world.particles, world.walls, world.wall_pairs, world.numbers
     w, k = pairs.wall[p], pairs.particle[p]
     centre, radius = row(particles.pose, k, X), particles.pose[k, RADIUS]
-    near = wall_nearest(walls, w, sub(centre, row(walls.displacement, w, 0)))
+    near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
     if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
         return False
     if place < len(output):

@@ -8,6 +8,7 @@ from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
 from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
 from clast.parts.contact_law import NO_DRAG, Touch
+from clast.parts.wall import Nearest
 
 from .contact_lane import kept_drag
 from .lanes import row
@@ -34,6 +35,7 @@ from .slots import (
     CONTACT_LOSSES,
     CURVED_WALLS,
     HISTORY,
+    MANIFOLDS,
     REACHES,
     REMEMBERS,
     ROLLS,
@@ -48,9 +50,9 @@ from .slots import (
     load_history,
     row_constants,
     store_history,
-    wall_nearest,
 )
 from .touching import share_since_touch
+from .wall_places import place_on_wall
 
 
 @inlined
@@ -61,6 +63,14 @@ def wall_reach(particles: Particles, walls: Walls, pairs: WallPairs, numbers: Nu
     if REACHES and pairs.touching[p] != 0:
         radius += reach_of(radius, 0.0, wall_constants(particles, walls, numbers, k, w))
     return radius
+
+
+@inlined
+def farthest(particles: Particles, walls: Walls, numbers: Numbers, k: int, w: int) -> float:
+    """Return how far beyond touch contacts of particle k and wall w are looked for, in m: twice as far as they hold."""
+    if MANIFOLDS and REACHES:
+        return 2.0 * reach_of(particles.pose[k, RADIUS], 0.0, wall_constants(particles, walls, numbers, k, w))
+    return 0.0
 
 
 @inlined
@@ -124,7 +134,14 @@ def push(particles: Particles, walls: Walls, k: int, w: int, force: Vec, torque:
 
 @inlined
 def book_parting(
-    walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, p: int, book: Floats, dt: float
+    walls: Walls,
+    pairs: WallPairs,
+    particles: Particles,
+    numbers: Numbers,
+    p: int,
+    near: Nearest,
+    book: Floats,
+    dt: float,
 ) -> None:
     """Book what the drag of the last evaluation still takes up while wall pair p parts, and what its springs held."""
     w, k = pairs.wall[p], pairs.particle[p]
@@ -132,18 +149,18 @@ def book_parting(
     book[VISCOUS] += 0.5 * dt * dot(last.force, apart)
     book[ROLLING] -= 0.5 * dt * dot(last.torque, row(particles.twist, k, W))
     if REACHES:
-        book[STIFFENING] += pull_off_loss(walls, pairs, particles, numbers, p, dt)
+        book[STIFFENING] += pull_off_loss(walls, pairs, particles, numbers, p, near, dt)
     elif HISTORY > 0:
         constants = wall_constants(particles, walls, numbers, k, w)
         book[STIFFENING] += energy_left(particles.pose[k, RADIUS], 0.0, constants, pairs.history, p)
 
 
 @inlined
-def pull_off_loss(walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, p: int, dt: float) -> float:
+def pull_off_loss(
+    walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, p: int, near: Nearest, dt: float
+) -> float:
     """Return the energy in J that wall pair p loses as it ends beyond touch."""
     w, k = pairs.wall[p], pairs.particle[p]
-    x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
-    near = wall_nearest(walls, w, x)
     radius = particles.pose[k, RADIUS]
     opened = dt * dot(sub(row(walls.velocity, w, 0), row(particles.twist, k, V)), near.normal)
     then = still(radius, 0.0, radius - near.distance + opened, near.normal)
@@ -157,12 +174,11 @@ def sweep_walls(
     """Add the loads of all wall contacts to particles and walls, in the order of the pairs; book losses and work."""
     for p in range(len(pairs.wall)):
         w, k = pairs.wall[p], pairs.particle[p]
-        x = sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
-        near = wall_nearest(walls, w, x)
+        near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
         radius = particles.pose[k, RADIUS]
         if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
             if CONTACT_LOSSES and pairs.touching[p] != 0:
-                book_parting(walls, pairs, particles, numbers, p, book, dt)
+                book_parting(walls, pairs, particles, numbers, p, near, book, dt)
             pairs.touching[p] = 0
             continue
         n = near.normal
@@ -178,9 +194,10 @@ def sweep_walls(
         push(particles, walls, k, w, load.force, load.torque_i, lever, n)
         if CURVED_WALLS:
             walls.pressing[w] += dot(load.force, n)
-        if HISTORY > 0:
+        if HISTORY > 0 or (MANIFOLDS and REMEMBERS):
             for c in range(3):
                 pairs.history[p, c] = n[c]
+        if HISTORY > 0:
             store_history(pairs.history[p], kept)
         if CONTACT_LOSSES:
             drag = kept_drag(pairs.history, p) if held else NO_DRAG
