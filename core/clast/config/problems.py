@@ -75,7 +75,10 @@ def explain(error: ValidationError, model: type[BaseModel], also: Collection[str
         Keys allowed beside the model's own.
     """
     details = []
-    for found in error.errors(include_url=False):
+    every = error.errors(include_url=False)
+    for found in every:
+        if found["type"] == "too_short" and any(_is_inside(each["loc"], found["loc"]) for each in every):
+            continue  # its entries are wrong, not missing
         loc = tuple(step for step in found["loc"] if not _is_tag(step))
         text = _text(found, loc, model, also)
         kind = found["type"] if found["type"] in _KINDS else MISSING if found["type"] == "missing" else WRONG
@@ -96,6 +99,10 @@ def located(error: ValidationError, model: type[BaseModel], document: Document) 
             path = path[:-1]
         problems.append(Problem((*path, *last), str(kind), kind.type))
     return problems
+
+
+def _is_inside(path: KeyPath, other: KeyPath) -> bool:
+    return len(path) > len(other) and path[: len(other)] == other
 
 
 def _is_tag(step: str | int) -> bool:

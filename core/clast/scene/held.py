@@ -24,7 +24,7 @@ TIMES = (0.0, *(10.0**k for k in range(-9, 4)))
 def not_held(scene: Scene) -> list[str]:
     """Return a sentence for each push that more than half of the particles would follow for ever.
 
-    Pushes are body forces and walls that move; what holds are other walls, and the domain. Scenes
+    Pushes are body forces and walls that move; what holds are walls, and the domain. Scenes
     without walls are left alone.
     """
     if not scene.config.walls or scene.config.boundaries.domain is not None:
@@ -32,8 +32,8 @@ def not_held(scene: Scene) -> list[str]:
     chosen = np.unique(np.linspace(0, len(scene.radius) - 1, ASKED).astype(np.int64))
     chosen = chosen[~scene.prescribed[chosen]]
     told = []
-    for name, wall, way in _pushes(scene):
-        free = sum(not _stopped(scene, int(k), way, wall) for k in chosen)
+    for name, way in _pushes(scene):
+        free = sum(not _stopped(scene, int(k), way) for k in chosen)
         if free > 0.5 * len(chosen):
             told.append(
                 f"nothing holds the particles against {name}: no wall lies behind them in its direction. Add one, such "
@@ -42,17 +42,17 @@ def not_held(scene: Scene) -> list[str]:
     return told
 
 
-def _pushes(scene: Scene) -> Iterator[tuple[str, int | None, Floats]]:
-    """Yield what pushes, its number among the walls if it is one, and the unit vector along which it does."""
+def _pushes(scene: Scene) -> Iterator[tuple[str, Floats]]:
+    """Yield what pushes, and the unit vector along which it does."""
     for k, chosen in enumerate(scene.config.body_forces):
         numbers = chosen.part.numbers(chosen.params, scene.config.time.mass_scaling)
         pull = _pull(chosen, numbers, tuple(scene.position[0].tolist()), float(scene.radius[0]))
         if pull.any():
-            yield f"body_forces.{k} ({chosen.name})", None, pull / np.linalg.norm(pull)
-    for w, (name, wall) in enumerate(scene.config.walls.items()):
+            yield f"body_forces.{k} ({chosen.name})", pull / np.linalg.norm(pull)
+    for name, wall in scene.config.walls.items():
         way = np.zeros(3) if wall.motion is None else _direction(wall.motion)
         if way.any():
-            yield f"walls.{name}", w, way / np.linalg.norm(way)
+            yield f"walls.{name}", way / np.linalg.norm(way)
 
 
 def _pull(chosen: Chosen, numbers: Any, x: Vec, radius: float) -> Floats:
@@ -76,12 +76,10 @@ def _direction(motion: Chosen) -> Floats:
     return np.zeros(3)
 
 
-def _stopped(scene: Scene, particle: int, way: Floats, pusher: int | None) -> bool:
-    """Tell whether a particle on its way meets a wall other than the one that pushes it."""
+def _stopped(scene: Scene, particle: int, way: Floats) -> bool:
+    """Tell whether a particle on its way meets a wall, be it that which pushes it: a vessel holds what is in it."""
     x, radius = scene.position[particle], float(scene.radius[particle])
-    return any(
-        _met(nearest, shape, x, way, radius) for w, (nearest, shape) in enumerate(wall_shapes(scene)) if w != pusher
-    )
+    return any(_met(nearest, shape, x, way, radius) for nearest, shape in wall_shapes(scene))
 
 
 def _met(nearest: Callable[..., Any], shape: Any, x: Floats, way: Floats, radius: float) -> bool:

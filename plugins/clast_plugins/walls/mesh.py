@@ -129,9 +129,13 @@ def shape(params: Mesh) -> Shape:
 
 @lru_cache(maxsize=8)
 def _shape(params: Mesh, version: tuple[int, int] | None) -> Shape:
-    found = surface(params)
-    tree: Tree = planted(found)
-    return Shape(rows_of(found[tree.order]).ravel(), tree.boxes.ravel(), tree.links.ravel())
+    return laid_out(surface(params))
+
+
+def laid_out(triangles: NDArray[np.float64]) -> Shape:
+    """Return the numbers of a surface of triangles, (t, 3, 3) in m."""
+    tree: Tree = planted(triangles)
+    return Shape(rows_of(triangles[tree.order]).ravel(), tree.boxes.ravel(), tree.links.ravel())
 
 
 def outside(boxes: NDArray[np.float64], k: int, x: Vec) -> float:

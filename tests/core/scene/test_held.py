@@ -12,6 +12,7 @@ from clast.scene.held import not_held
 
 BOTTOM = {"type": "plane", "material": "glass", "point": [0, 0, -0.01], "normal": [0, 0.1, 1]}
 TUBE = {"type": "cylinder", "material": "glass", "point": [0, 0, 0], "axis": [0, 0, 1], "radius": 0.02}
+BOX = {"type": "box", "material": "glass", "lower": [-0.02] * 3, "upper": [0.02] * 3}
 PISTON = {"type": "plane", "material": "glass", "point": [0, 0, 0.02], "normal": [0, 0, -1]}
 DOWN = {"type": "constant_velocity", "velocity": [0, 0, -0.1]}
 RAMP = {"type": "velocity_ramp", "end": [0, 0, -0.1], "duration": "1 ms"}
@@ -57,6 +58,7 @@ def test_a_tube_without_a_bottom_is_pointed_out(walls: dict[str, Any], more: dic
         ({"tube": TUBE, "bottom": BOTTOM, "piston": PISTON | {"motion": DOWN}}, {}),
         ({}, {"body_forces": GRAVITY}),
         ({"tube": TUBE}, {}),
+        ({"vessel": BOX | {"motion": DOWN}}, {"body_forces": GRAVITY}),
         ({"tube": TUBE}, {"body_forces": GRAVITY, "boundaries": {"domain": {"lower": [-1] * 3, "upper": [1] * 3}}}),
     ],
 )
