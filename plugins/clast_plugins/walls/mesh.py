@@ -20,7 +20,7 @@ from clast.parts.wall import Nearest, Wall
 from clast.plugins.registry import Registry
 from clast_plugins.walls.surface.read import Triangles, refuse_bad, triangles_of, version
 from clast_plugins.walls.surface.tree import Tree, planted
-from clast_plugins.walls.surface.triangle import WIDTH, Foot, foot_on, rows_of
+from clast_plugins.walls.surface.triangle import WIDTH, Foot, foot_on, outside, rows_of
 
 FLAT = 1e-3
 """Angle in rad at which two faces meet and still count as one, and, times the distance, how near a foot must be to a
@@ -136,15 +136,6 @@ def laid_out(triangles: NDArray[np.float64]) -> Shape:
     """Return the numbers of a surface of triangles, (t, 3, 3) in m."""
     tree: Tree = planted(triangles)
     return Shape(rows_of(triangles[tree.order]).ravel(), tree.boxes.ravel(), tree.links.ravel())
-
-
-def outside(boxes: NDArray[np.float64], k: int, x: Vec) -> float:
-    """Return the squared distance from x to a box in m², 0 inside."""
-    found = 0.0
-    for c in range(3):
-        away = max(boxes[k + c] - x[c], x[c] - boxes[k + 3 + c], 0.0)
-        found += away * away
-    return found
 
 
 def nearest(shape: Shape, x: Vec) -> Nearest:

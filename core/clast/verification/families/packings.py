@@ -94,9 +94,19 @@ def judge_scatter(bench: Bench) -> Findings:
 SMALL = 0.1e-3
 """Diameter of the spheres that fill a body thinly, in m."""
 
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+CORNERS = [[x, y, z] for x in (0.0, 4e-3) for y in (0.0, 6e-3) for z in (0.0, 8e-3)]
+BOX_OF_TRIANGLES = [[CORNERS[k] for k in cut] for a, b, c, d in FACES for cut in ((a, b, c), (a, c, d))]
+"""The surface of a box, cut into triangles."""
+
 BODIES: dict[str, tuple[dict[str, Any], tuple[float, float, float], tuple[float, float, float]]] = {
     "box": ({"type": "random_packing", "box": [4e-3, 6e-3, 8e-3]}, (2e-3, 3e-3, 4e-3), (3.0, 3.0, 3.0)),
     "tube": ({"type": "random_packing", "diameter": 6e-3, "height": 8e-3}, (3e-3, 3e-3, 4e-3), (4.0, 4.0, 3.0)),
+    "triangles": (
+        {"type": "mesh_agglomerate", "triangles": BOX_OF_TRIANGLES},
+        (2e-3, 3e-3, 4e-3),
+        (3.0, 3.0, 3.0),
+    ),
     "ellipsoid": (
         {"type": "ellipsoidal_agglomerate", "semi_axes": [5e-3, 4e-3, 3e-3]},
         (5e-3, 4e-3, 3e-3),

@@ -1,4 +1,4 @@
-"""One triangle: the nearest point to a place. C. Ericson (2005), Real-Time Collision Detection, Sect. 5.1.5."""
+"""One triangle: its nearest point, by C. Ericson (2005), Real-Time Collision Detection, Sect. 5.1.5; boxes likewise."""
 
 from __future__ import annotations
 
@@ -31,6 +31,15 @@ def rows_of(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
 def vector_at(rows: NDArray[np.float64], k: int) -> Vec:
     """Return three numbers in a row as a vector."""
     return (rows[k], rows[k + 1], rows[k + 2])
+
+
+def outside(boxes: NDArray[np.float64], k: int, x: Vec) -> float:
+    """Return the squared distance from x to a box in m², 0 inside."""
+    found = 0.0
+    for c in range(3):
+        away = max(boxes[k + c] - x[c], x[c] - boxes[k + 3 + c], 0.0)
+        found += away * away
+    return found
 
 
 def towards(path: Vec, x: Vec, n: Vec) -> Foot:
