@@ -224,7 +224,8 @@ class Simulation:
         if self.plan.contacts is not None:
             search = self.config.neighbours.search.part
             if self.plan.contacts.between_particles:
-                pairs = find_pairs(particles, world.chunks, world.bonds, world.pairs, search, slack + 0.5 * self.reach)
+                given = (particles, world.chunks, world.bonds, world.pairs, search, slack + 0.5 * self.reach)
+                pairs = find_pairs(*given, self.scene.box)
                 world = world._replace(pairs=pairs)
             if self.plan.walls:
                 walls, near_walls, far = world.walls, self.kernel.near_walls, self.skin.most + self.reach
@@ -279,11 +280,10 @@ class Simulation:
             )
 
     def _remove_leavers(self) -> None:
-        domain = self.config.boundaries.domain
-        if domain is None:
+        if self.config.boundaries.domain is None:
             return
         particles, bonds = self.world.particles, self.world.bonds
-        leaving = outside_of(domain, particles.pose[:, X : X + 3]) & (particles.present != 0)
+        leaving = outside_of(self.scene.box, particles.pose[:, X : X + 3]) & (particles.present != 0)
         if not leaving.any():
             return
         before = self.ledger().stored if self.plan.ledger else 0.0

@@ -76,7 +76,7 @@ def scene_rows(scene: Scene) -> Rows:
     """Return counts, coordination and overlaps."""
     n = len(scene.radius)
     bonds = BondList(scene.ends, scene.diameter, scene.length)
-    found = overlaps(scene.position, scene.radius)
+    found = overlaps(scene.position, scene.radius, scene.box)
     degree = np.bincount(scene.ends.ravel(), minlength=n)
     rows = [
         ("particles", f"{n}, radii {scene.radius.min():.4g} to {scene.radius.max():.4g} m"),
@@ -85,7 +85,7 @@ def scene_rows(scene: Scene) -> Rows:
             "bonds",
             f"{len(scene.ends)}, {bond_coordination(n, bonds):.2f} a particle ({degree.min()} to {degree.max()})",
         ),
-        ("touching neighbours", f"{contact_coordination(scene.position, scene.radius):.2f} a particle"),
+        ("touching neighbours", f"{contact_coordination(scene.position, scene.radius, box=scene.box):.2f} a particle"),
         ("overlaps", f"{found.pairs} pairs, largest {found.largest:.3g} m, mean {found.mean:.3g} m"),
         *piece_rows(scene),
         *scatter_rows(scene),
@@ -200,9 +200,8 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
         slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt)
         if search.told is not None:
             rows.append(("neighbour search", search.told(scene.radius + slack)))
-        pairs = find_pairs(
-            world.particles, world.chunks, world.bonds, empty_pairs(world.chunks, plan.remembered), search, slack
-        )
+        none = empty_pairs(world.chunks, plan.remembered)
+        pairs = find_pairs(world.particles, world.chunks, world.bonds, none, search, slack, scene.box)
         count = len(pairs.first)
         if count:
             size = sum(a.nbytes for a in pairs) / count

@@ -94,10 +94,18 @@ class WallSettings(Params):
 
 
 class Domain(Params):
-    """A box; particles that leave it are removed and counted."""
+    """A box; particles that leave it are removed and counted, but for directions in which it repeats itself."""
 
     lower: Annotated[Point, Field(description="Corner with the smallest coordinates")]
     upper: Annotated[Point, Field(description="Corner with the largest coordinates")]
+    periodic: Annotated[
+        tuple[Literal["x", "y", "z"], ...],
+        Field(
+            examples=[["x", "y"]],
+            description="Directions in which the box is followed by its own images: what leaves at one face comes in "
+            "at the other, and bonds and contacts reach across",
+        ),
+    ] = ()
 
     @model_validator(mode="after")
     def _is_a_box(self) -> Domain:
@@ -109,7 +117,7 @@ class Domain(Params):
 class Boundaries(Params):
     """Limits of the scene."""
 
-    domain: Annotated[Domain | None, Field(description="Box that particles must not leave")] = None
+    domain: Annotated[Domain | None, Field(description="Box that holds the scene, or repeats it")] = None
 
 
 class Compression(Params):

@@ -109,8 +109,9 @@ class Blueprint:
     """Everything the assembler needs to know; run-time numbers are not part of it.
 
     ``applied_loads`` is whether a constant force or torque acts on some particle, ``ledger`` whether energies are
-    booked, ``chunked`` whether the scene is cut into chunks that threads can share, ``curved_walls`` whether some wall
-    is not flat, ``step_share`` what damping of motion and walls that give way leave of the stable step.
+    booked, ``chunked`` whether the scene is cut into chunks that threads can share, ``periodic`` whether it repeats
+    itself in some direction, ``curved_walls`` whether some wall is not flat, ``step_share`` what damping of motion and
+    walls that give way leave of the stable step.
     """
 
     integrator: Integrator
@@ -122,6 +123,7 @@ class Blueprint:
     applied_loads: bool = False
     ledger: bool = False
     chunked: bool = False
+    periodic: bool = False
     curved_walls: bool = False
     damping: Damping | None = None
     step_share: float = 1.0

@@ -11,9 +11,13 @@ from numpy.typing import NDArray
 from clast.engine.cache_lines import on_lines
 from clast.engine.chunks import shared_out
 from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, V, X
+from clast.engine.near_pairs import near_pairs
 from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import slot_view
+from clast.maths.box import Box
 from clast.parts.neighbour_search import NeighbourSearch
+from clast.scene.plan import largest_reach
+from clast.scene.repeats import LEAST_SKIN, most_skin
 from clast.scene.scene import Scene
 
 NearWalls = Callable[..., None]
@@ -38,7 +42,8 @@ def choose_skin(scene: Scene) -> Skin:
     if not isinstance(skin, str):
         return Skin(0.5 * skin, 0.5 * skin, 0.0)
     smallest = float(scene.radius.min())
-    return Skin(0.1 * smallest, 2.0 * smallest, 400.0)
+    most = most_skin(scene.box, scene.radius, largest_reach(scene))
+    return Skin(LEAST_SKIN * smallest, min(2.0 * smallest, most), 400.0)
 
 
 def choose_slack(particles: Particles, skin: Skin, dt: float) -> Floats:
@@ -53,7 +58,7 @@ def choose_slack(particles: Particles, skin: Skin, dt: float) -> Floats:
 
 
 def find_pairs(
-    particles: Particles, chunks: Indices, bonds: Bonds, old: Pairs, search: NeighbourSearch, slack: Floats
+    particles: Particles, chunks: Indices, bonds: Bonds, old: Pairs, search: NeighbourSearch, slack: Floats, box: Box
 ) -> Pairs:
     """Return all pairs that can come to touch while each moves by its slack, with the history of those known.
 
@@ -62,7 +67,7 @@ def find_pairs(
     here = np.nonzero(particles.present)[0]
     position = np.ascontiguousarray(particles.pose[here, X : X + 3])
     reach = particles.pose[here, RADIUS] + slack[here]
-    found = here[search.find_pairs(position, reach).astype(np.int64)].reshape(-1, 2)
+    found = here[near_pairs(search, position, reach, box)]
     movable = particles.body[:, INVERSE_MASS] > 0.0
     found = found[movable[found].any(axis=1)]
     rows, sides, begin = shared_out(chunks, found)

@@ -68,6 +68,7 @@ def _flags(plan: Blueprint) -> str:
     bonds, contacts = plan.bonds, plan.contacts
     values = {
         "CHUNKED": plan.chunked,
+        "PERIODIC": plan.periodic,
         "BONDS": bonds is not None,
         "BOND_ORIENTATION": plan.orientation,
         "BOND_VELOCITY": plan.bond_velocity,

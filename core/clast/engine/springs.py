@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from clast.engine.blueprint import Blueprint
 from clast.engine.response import Response, respond, rolling_response
 from clast.engine.wall_feet import feet
+from clast.maths.box import Box, open_space
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
@@ -53,24 +54,27 @@ class Bodies(NamedTuple):
     ----------
     position : (n, 3) float64
     radius, inverse_mass, inverse_inertia : (n,) float64
+    box : Box
+        In which they repeat themselves, if they do.
     """
 
     position: Floats
     radius: Floats
     inverse_mass: Floats
     inverse_inertia: Floats
+    box: Box = open_space()
 
 
 def bodies_at_start(scene: Scene) -> Bodies:
     """Return the particles of a scene; prescribed ones have no inverse mass."""
     per_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)
-    return Bodies(scene.position, scene.radius, per_mass, 2.5 * per_mass / scene.radius**2)
+    return Bodies(scene.position, scene.radius, per_mass, 2.5 * per_mass / scene.radius**2, scene.box)
 
 
 def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
     """Return everything that holds or touches at the start of a scene."""
     bodies = bodies_at_start(scene)
-    pairs = close_pairs(scene.position, scene.radius, 0.0)[0]
+    pairs = close_pairs(scene.position, scene.radius, 0.0, scene.box)[0]
     everything = np.ones(len(scene.ends), bool)
     still = np.zeros((len(scene.config.walls), 3))
     near = near_walls(scene, scene.position, still)
@@ -106,7 +110,7 @@ def bond_springs(scene: Scene, bodies: Bodies, intact: NDArray[np.bool_]) -> Spr
     if not intact.any():
         return no_springs()
     first, second = scene.ends[intact].T
-    d = bodies.position[second] - bodies.position[first]
+    d = bodies.box.nearest(bodies.position[second] - bodies.position[first])
     length = np.linalg.norm(d, axis=1)
     size = len(scene.ends)
     stiffness = np.column_stack([np.broadcast_to(k, size) for k in bond_stiffness(scene)])
@@ -141,7 +145,7 @@ def contact_springs(
     if instead.any():
         pairs = pairs[~np.isin(pair_numbers(scene, pairs), pair_numbers(scene, scene.ends[instead]))]
     i, j = pairs.T
-    d = bodies.position[j] - bodies.position[i]
+    d = bodies.box.nearest(bodies.position[j] - bodies.position[i])
     distance = np.sqrt(d[:, 0] ** 2 + d[:, 1] ** 2 + d[:, 2] ** 2)
     reach = bodies.radius[i] + bodies.radius[j]
     overlap = reach - distance - overlaps_at_rest(scene, pairs)
@@ -250,7 +254,7 @@ def contact_responses(scene: Scene, plan: Blueprint) -> Responses:
 def overlaps_at_rest(scene: Scene, pairs: Integers) -> Floats:
     """Return the overlaps up to which pairs do not push, (p,) in m."""
     i, j = pairs.T
-    distance = np.linalg.norm(scene.position[i] - scene.position[j], axis=1)
+    distance = np.linalg.norm(scene.ways(pairs), axis=1)
     overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
     return np.asarray(np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0))
 

@@ -19,7 +19,8 @@ class Particles(NamedTuple):
     ``seen`` holds the velocities that forces see; ``reference`` (n, 4) the positions at the last neighbour search and
     the squared distance from there at which the lists go stale;
     ``applied`` is a constant load on each particle, (0, 8) where there is none;
-    ``present`` (n,) is 0 for particles that left the domain.
+    ``present`` (n,) is 0 for particles that left the domain; ``box`` (BOX_ROWS, 3) tells in which directions, and how
+    far away, images follow.
     """
 
     pose: Floats
@@ -31,6 +32,7 @@ class Particles(NamedTuple):
     reference: Floats
     applied: Floats
     present: Bytes
+    box: Floats
 
 
 class Bonds(NamedTuple):

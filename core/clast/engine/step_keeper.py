@@ -137,8 +137,11 @@ class StepKeeper:
     def bodies(self, world: World) -> Bodies:
         """Return where the particles of a world are, and how heavy."""
         pose, body = world.particles.pose, world.particles.body
-        columns = (pose[:, RADIUS], body[:, INVERSE_MASS], body[:, INVERSE_INERTIA])
-        return Bodies(np.ascontiguousarray(pose[:, X : X + 3]), *(column.copy() for column in columns))
+        radius, per_mass, per_inertia = (
+            column.copy() for column in (pose[:, RADIUS], body[:, INVERSE_MASS], body[:, INVERSE_INERTIA])
+        )
+        position = np.ascontiguousarray(pose[:, X : X + 3])
+        return Bodies(position, radius, per_mass, per_inertia, self.scene.box)
 
     def bonds(self, world: World) -> Springs:
         """Return the springs of the bonds that hold."""

@@ -29,6 +29,7 @@ from clast.engine.kernels.layout import (
 from clast.engine.records import columns
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import Bonds, Bytes, Cracks, Floats, Indices, Integers, Pairs, Particles, WallPairs
+from clast.maths.box import Box
 
 
 def particle_tables(
@@ -41,11 +42,13 @@ def particle_tables(
     prescribed: NDArray[np.bool_],
     weight: Floats,
     applied: Floats,
+    box: Box,
 ) -> Particles:
     """Return the tables of n particles: (n, 3) positions, velocities and spins, (n,) all else, SI.
 
     ``weight`` is the share of its mass that body forces act on: less than 1 for a particle that was made heavier.
-    ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows.
+    ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows; ``box``
+    tells in which directions they repeat themselves.
     Prescribed particles get no inverse mass and inertia, so nothing changes their velocity and spin.
     """
     n = len(position)
@@ -70,6 +73,7 @@ def particle_tables(
         reference=np.zeros((n, 4)),
         applied=_load_rows(applied),
         present=np.ones(n, np.uint8),
+        box=np.array([box.span, box.per_span]),
     )
 
 

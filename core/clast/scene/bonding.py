@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.maths.box import Box, open_space
 from clast.parts.generator import BondList
 
 Floats = NDArray[np.float64]
@@ -22,6 +23,7 @@ def bond_neighbours(
     min_gap: float = -math.inf,
     diameter: float | None = None,
     relative: bool = False,
+    box: Box | None = None,
 ) -> BondList:
     """Bond every pair whose surface gap lies in ``[min_gap, max_gap]``.
 
@@ -39,6 +41,8 @@ def bond_neighbours(
         Bond diameter in m; never more than the smaller particle's, which is also the default.
     relative : bool
         Whether ``max_gap`` is a share of the smaller particle's diameter, instead of a length.
+    box : Box, optional
+        Where it repeats itself, pairs are bonded across its faces.
 
     Returns
     -------
@@ -64,7 +68,7 @@ def bond_neighbours(
     if diameter is not None and not diameter > 0.0:
         raise ValueError(f"a bond diameter must be above zero; {diameter:g} m given")
     widest = max_gap * 2.0 * float(radius.max(initial=0.0)) if relative else max_gap
-    ends, gap = close_pairs(position, radius, widest)
+    ends, gap = close_pairs(position, radius, widest, box)
     smaller = 2.0 * np.minimum(radius[ends[:, 0]], radius[ends[:, 1]])
     near = (gap >= min_gap) & (gap <= (max_gap * smaller if relative else max_gap))
     ends, smaller = ends[near], smaller[near]
@@ -75,7 +79,7 @@ def bond_neighbours(
     )
 
 
-def close_pairs(position: Floats, radius: Floats, max_gap: float) -> tuple[Ints, Floats]:
+def close_pairs(position: Floats, radius: Floats, max_gap: float, box: Box | None = None) -> tuple[Ints, Floats]:
     """Return the pairs with a surface gap up to ``max_gap``, and their gaps.
 
     Parameters
@@ -86,6 +90,8 @@ def close_pairs(position: Floats, radius: Floats, max_gap: float) -> tuple[Ints,
         Radii in m.
     max_gap : float
         Largest gap in m; may be negative, then only overlapping pairs are found.
+    box : Box, optional
+        Where it repeats itself, gaps are those to the nearest image.
 
     Returns
     -------
@@ -94,8 +100,9 @@ def close_pairs(position: Floats, radius: Floats, max_gap: float) -> tuple[Ints,
     gap : (m,) float64
         In m.
     """
-    ends = _candidates(position, 2.0 * float(radius.max(initial=0.0)) + max_gap)
-    way = position[ends[:, 0]] - position[ends[:, 1]]
+    box = box or open_space()
+    ends = _candidates(position, 2.0 * float(radius.max(initial=0.0)) + max_gap, box)
+    way = box.nearest(position[ends[:, 0]] - position[ends[:, 1]])
     distance = np.sqrt(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2)
     gap = distance - (radius[ends[:, 0]] + radius[ends[:, 1]])
     close = gap <= max_gap
@@ -124,7 +131,7 @@ def doubled(ends: Ints) -> tuple[int, int] | None:
     return int(order[k + 1]), int(order[k])
 
 
-def _candidates(position: Floats, reach: float) -> Ints:
+def _candidates(position: Floats, reach: float, box: Box) -> Ints:
     """Return every pair nearer than ``reach``, and perhaps some that are farther, (m, 2) with ``i < j`` rising."""
     if len(position) <= FEW:
         return np.column_stack(np.triu_indices(len(position), 1)).astype(np.int64)
@@ -133,6 +140,13 @@ def _candidates(position: Floats, reach: float) -> Ints:
     from scipy.spatial import cKDTree
 
     # the tree rounds distances its own way: ask it for a little more
-    found = cKDTree(position).query_pairs(reach * (1.0 + 1e-9), output_type="ndarray")
+    tree = cKDTree(_in_the_box(position, box), boxsize=box.span)
+    found = tree.query_pairs(reach * (1.0 + 1e-9), output_type="ndarray")
     ends = np.sort(found.astype(np.int64), axis=1)
     return np.asarray(ends[np.lexsort((ends[:, 1], ends[:, 0]))])
+
+
+def _in_the_box(position: Floats, box: Box) -> Floats:
+    """Return positions from the lower corner on, below the span in directions that repeat, as the tree wants them."""
+    inside = box.wrapped(position) - np.where(box.periodic, box.lower, 0.0)
+    return np.where(box.periodic, np.clip(inside, 0.0, np.nextafter(box.span, 0.0)), inside)

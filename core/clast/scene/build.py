@@ -11,12 +11,13 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.mass_scaling import with_heavier_particles
 from clast.errors import ConfigError, KeyPath
+from clast.maths.box import Box
 from clast.parts.generator import BondList, Packing
 from clast.plugins.nearest import suggestion
 from clast.scene.bonding import bond_neighbours, doubled
 from clast.scene.foretold import foretold, site
 from clast.scene.scatter import draw_factors, scatter_entries
-from clast.scene.scene import Origin, Scene
+from clast.scene.scene import Origin, Scene, box_of
 
 EXTREME = 1e-100
 """Smallest mass in kg and inertia in kg m² that is computed with; the largest are its inverse."""
@@ -114,7 +115,7 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
         torque=np.concatenate([_vectors(packing.torque, packing) for packing in packings]),
         ends=np.sort(bonds.ends, axis=1),
         diameter=bonds.diameter,
-        length=_lengths(bonds, position),
+        length=_lengths(bonds, position, box_of(config)),
         relieved=np.concatenate([np.full(len(p.radius), p.relieved) for p in packings]),
         factors=draw_factors(scatter_entries(config), len(bonds.ends)),
         origins=origins,
@@ -212,7 +213,7 @@ def _near_bonds(
     relative = between.max_gap is None
     max_gap = between.relative_gap if between.max_gap is None else between.max_gap
     assert max_gap is not None
-    near = bond_neighbours(position, radius, max_gap, min_gap, between.diameter, relative)
+    near = bond_neighbours(position, radius, max_gap, min_gap, between.diameter, relative, box_of(config))
     i, j = near.ends.T
     wanted = grain[i] == grain[j]
     if between.materials is not None:
@@ -224,6 +225,6 @@ def _near_bonds(
     return BondList(near.ends[wanted], near.diameter[wanted], near.length[wanted])
 
 
-def _lengths(bonds: BondList, position: Floats) -> Floats:
-    d = position[bonds.ends[:, 1]] - position[bonds.ends[:, 0]]
+def _lengths(bonds: BondList, position: Floats, box: Box) -> Floats:
+    d = box.nearest(position[bonds.ends[:, 1]] - position[bonds.ends[:, 0]])
     return np.where(np.isnan(bonds.length), np.linalg.norm(d, axis=1), bonds.length)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.maths.box import Box
 from clast.parts.generator import BondList
 from clast.scene.bonding import close_pairs
 
@@ -22,7 +23,7 @@ class Overlaps(NamedTuple):
     mean: float
 
 
-def overlaps(position: Floats, radius: Floats) -> Overlaps:
+def overlaps(position: Floats, radius: Floats, box: Box | None = None) -> Overlaps:
     """Return number, largest and mean of the overlaps between particles.
 
     Parameters
@@ -31,20 +32,22 @@ def overlaps(position: Floats, radius: Floats) -> Overlaps:
         Centres in m.
     radius : (n,) float64
         Radii in m.
+    box : Box, optional
+        Where it repeats itself, particles overlap across its faces too.
 
     Examples
     --------
     >>> overlaps(np.array([[0.0, 0.0, 0.0], [1.5, 0.0, 0.0]]), np.array([1.0, 1.0]))
     Overlaps(pairs=1, largest=0.5, mean=0.5)
     """
-    _, gap = close_pairs(position, radius, 0.0)
+    _, gap = close_pairs(position, radius, 0.0, box)
     depth = -gap[gap < 0.0]
     if not len(depth):
         return Overlaps(0, 0.0, 0.0)
     return Overlaps(len(depth), float(depth.max()), float(depth.mean()))
 
 
-def contact_coordination(position: Floats, radius: Floats, tolerance: float = 1e-3) -> float:
+def contact_coordination(position: Floats, radius: Floats, tolerance: float = 1e-3, box: Box | None = None) -> float:
     """Return the mean number of particles that touch a particle.
 
     Parameters
@@ -55,6 +58,8 @@ def contact_coordination(position: Floats, radius: Floats, tolerance: float = 1e
         Radii in m.
     tolerance : float
         Two particles touch when their gap is at most this share of the mean particle diameter.
+    box : Box, optional
+        Where it repeats itself, particles touch across its faces too.
 
     Examples
     --------
@@ -63,7 +68,7 @@ def contact_coordination(position: Floats, radius: Floats, tolerance: float = 1e
     """
     if not len(radius):
         return 0.0
-    ends, _ = close_pairs(position, radius, tolerance * 2.0 * float(radius.mean()))
+    ends, _ = close_pairs(position, radius, tolerance * 2.0 * float(radius.mean()), box)
     return 2.0 * len(ends) / len(radius)
 
 

@@ -40,6 +40,7 @@ def blueprint(scene: Scene) -> Blueprint:
         applied_loads=len(applied_loads(scene)) > 0,
         ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
+        periodic=scene.box.repeats,
         damping=config.damping.part if config.damping is not None else None,
         step_share=step_share(scene),
         curved_walls=not all(wall.flat for wall in config.walls.values()),

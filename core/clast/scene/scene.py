@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
 from clast.errors import KeyPath
+from clast.maths.box import Box, open_space
 from clast.parts.bond_model import BondGeometry
 
 Floats = NDArray[np.float64]
@@ -83,9 +84,18 @@ class Scene:
     concerns: tuple[str, ...] = ()
 
     @property
+    def box(self) -> Box:
+        """The box that repeats itself, or holds the particles, at the start."""
+        return box_of(self.config)
+
+    def ways(self, pairs: Integers) -> Floats:
+        """From the centre of the first of each pair, (p, 2), to the nearest image of the second, (p, 3) in m."""
+        return self.box.nearest(self.position[pairs[:, 1]] - self.position[pairs[:, 0]])
+
+    @property
     def bond_vectors(self) -> Floats:
         """Centre of j minus centre of i for every bond, (m, 3) in m."""
-        return self.position[self.ends[:, 1]] - self.position[self.ends[:, 0]]
+        return self.ways(self.ends)
 
     @property
     def bond_geometry(self) -> BondGeometry:
@@ -104,3 +114,12 @@ class Scene:
     def origin(self, particle: int) -> KeyPath | str:
         """Where the user wrote a particle: a key path of the scene, or file and line."""
         return next(each for each in reversed(self.origins) if each.first <= particle).place(particle)
+
+
+def box_of(config: SceneConfig) -> Box:
+    """Return the box of a scene at its start: its domain; one without bounds where it has none."""
+    domain = config.boundaries.domain
+    if domain is None:
+        return open_space()
+    periodic = np.array([axis in domain.periodic for axis in "xyz"])
+    return Box(np.array(domain.lower), np.array(domain.upper), periodic)

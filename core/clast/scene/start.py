@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
-from clast.config.sections import Domain
 from clast.engine.wall_feet import feet
+from clast.maths.box import Box
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
 from clast.scene.plan import material_pairs
+from clast.scene.repeats import check_repeats
 from clast.scene.scatter import multiplied, refuse_beyond_bounds, scatter_entries
 from clast.scene.scene import Scene
 
@@ -35,6 +36,7 @@ def check_start(scene: Scene) -> None:
     _refuse_misfits(scene)
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
     _refuse_outsiders(scene)
+    check_repeats(scene)
     _refuse_coarse_positions(scene)
     _refuse_short_bonds(scene)
     if scene.config.contacts is not None:
@@ -102,7 +104,7 @@ def _refuse_outsiders(scene: Scene) -> None:
     domain = scene.config.boundaries.domain
     if domain is None:
         return
-    outside = outside_of(domain, scene.position)
+    outside = outside_of(scene.box, scene.position)
     if outside.any():
         k = int(np.argmax(outside))
         x, y, z = scene.position[k]
@@ -114,9 +116,9 @@ def _refuse_outsiders(scene: Scene) -> None:
         )
 
 
-def outside_of(domain: Domain, position: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which of (n, 3) centres in m lie outside a domain, (n,)."""
-    return np.asarray(((position < np.array(domain.lower)) | (position > np.array(domain.upper))).any(axis=1))
+def outside_of(box: Box, position: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which of (n, 3) centres in m lie outside a box, (n,), in a direction in which it does not repeat itself."""
+    return np.asarray((((position < box.lower) | (position > box.upper)) & ~box.periodic).any(axis=1))
 
 
 def _refuse_coarse_positions(scene: Scene) -> None:
@@ -154,7 +156,7 @@ def _round_off(scene: Scene) -> NDArray[np.float64]:
 def _refuse_particle_overlaps(scene: Scene) -> None:
     contacts = scene.config.contacts
     assert contacts is not None
-    ends, gap = close_pairs(scene.position, scene.radius, 0.0)
+    ends, gap = close_pairs(scene.position, scene.radius, 0.0, scene.box)
     i, j = ends.T
     share = -gap / np.minimum(scene.radius[i], scene.radius[j])
     share[scene.relieved[i] & scene.relieved[j]] = 0.0

@@ -48,6 +48,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
         scene.prescribed,
         weights(scene),
         applied_loads(scene),
+        scene.box,
     )
     return World(
         particles=on_lines(particles),
@@ -143,7 +144,7 @@ def _contact_table(scene: Scene, plan: Blueprint) -> Floats:
 def relieve(scene: Scene, pairs: Pairs) -> None:
     """Let the overlaps that relieved particles start with count as undeformed."""
     i, j = pairs.first.astype(np.int64), pairs.second.astype(np.int64)
-    distance = np.linalg.norm(scene.position[i] - scene.position[j], axis=1)
+    distance = np.linalg.norm(scene.ways(np.column_stack([i, j])), axis=1)
     overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
     pairs.rest[:] = np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0)
 

@@ -10,12 +10,14 @@ from clast.parts.bond_kinematics import BondMotion
 from clast.parts.bond_model import RandomKey, Strain
 
 from .bond_lane import bond_lane, read_motion
+from .images import way_between
 from .lanes import row
 from .layout import Q, V, W, X
 from .slots import (
     BOND_LIMIT,
     BOND_ORIENTATION,
     LEDGER,
+    PERIODIC,
     TURNED_MODE,
     bond_beyond,
     bond_energy,
@@ -42,7 +44,7 @@ def strain_before(particles: Particles, i: int, j: int, data: Floats, lane: int,
     if BOND_ORIENTATION:
         q_i = turn(quaternion(pose, i), row(twist, i, W), -time)
         q_j = turn(quaternion(pose, j), row(twist, j, W), -time)
-    d, v = sub(row(pose, j, X), row(pose, i, X)), sub(row(twist, j, V), row(twist, i, V))
+    d, v = way_between(particles, i, j), sub(row(twist, j, V), row(twist, i, V))
     motion = BondMotion(sub(d, scale(time, v)), q_i, q_j, v, row(twist, i, W), row(twist, j, W))
     strain: Strain = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), -time)[0]
     return strain
@@ -138,7 +140,10 @@ def log_crack(
     cracks.ends[row, 0] = i
     cracks.ends[row, 1] = j
     for c in range(3):
-        cracks.position[row, c] = 0.5 * (particles.pose[i, X + c] + particles.pose[j, X + c])
+        if PERIODIC:
+            cracks.position[row, c] = particles.pose[i, X + c] + 0.5 * motion.d[c]
+        else:
+            cracks.position[row, c] = 0.5 * (particles.pose[i, X + c] + particles.pose[j, X + c])
     cracks.mode[row] = bond_mode(strain, load, constants, state)
     if BOND_LIMIT:
         cracks.mode[row] = TURNED_MODE if bond_beyond(motion) else cracks.mode[row]

@@ -10,6 +10,7 @@ from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad
 
 from .bond_dashpots import damped
+from .images import nearest
 from .lanes import put, vector
 from .layout import (
     BOND_D,
@@ -45,6 +46,7 @@ from .slots import (
     BOND_VELOCITY,
     FADE,
     LEDGER,
+    PERIODIC,
     bond_beyond,
     bond_end_loads,
     bond_energy,
@@ -68,6 +70,8 @@ def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> 
     pose, twist, seen = particles.pose, particles.twist, particles.seen
     for c in range(3):
         scratch[(BOND_D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
+    if PERIODIC:
+        put(scratch, BOND_D, lane, nearest(particles.box, vector(scratch, BOND_D, lane)))
     if BOND_ORIENTATION:
         for c in range(4):
             scratch[(BOND_QI + c) * LANES + lane] = pose[i, Q + c]

@@ -11,6 +11,7 @@ from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
 from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
+from .images import nearest, way_between
 from .lanes import put, row, vector
 from .layout import (
     FIRST,
@@ -37,6 +38,7 @@ from .slots import (
     CONTACT_LOSSES,
     HISTORY,
     ONE_SIZE,
+    PERIODIC,
     REACHES,
     REMEMBERS,
     RESTS,
@@ -57,6 +59,8 @@ def meet(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: 
     pose = particles.pose
     i, j = pairs.first[k], pairs.second[k]
     d = (pose[j, X] - pose[i, X], pose[j, X + 1] - pose[i, X + 1], pose[j, X + 2] - pose[i, X + 2])
+    if PERIODIC:
+        d = nearest(particles.box, d)
     r_i, r_j = radii(particles, i, j, numbers)
     put(scratch, D, lane, d)
     if not ONE_SIZE:
@@ -99,7 +103,7 @@ def pull_off_loss(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, 
     """Return the energy in J that pair k loses as it ends beyond touch."""
     i, j = pairs.first[k], pairs.second[k]
     r_i, r_j = radii(particles, i, j, numbers)
-    d = sub(row(particles.pose, j, X), row(particles.pose, i, X))
+    d = way_between(particles, i, j)
     distance = sqrt(dot(d, d))
     n = scale(1.0 / distance, d)
     opened = dt * dot(sub(row(particles.twist, j, V), row(particles.twist, i, V)), n)

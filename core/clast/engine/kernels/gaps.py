@@ -9,6 +9,7 @@ from clast.engine.state import Floats, World
 from clast.maths.vec3 import Vec, dot, sub
 
 from .contact_sweep import joined
+from .images import way_between
 from .lanes import row
 from .layout import FIRST, RADIUS, X
 from .slots import BONDED_PAIRS_TOUCH, CONTACTS, WALLS
@@ -46,7 +47,7 @@ def gaps(world: World, between: Floats, at_walls: Floats) -> None:
 def write_pair(world: World, k: int, counts: bool, found: Floats) -> None:
     """Write direction and overlap of pair k."""
     pose, i, j = world.particles.pose, world.pairs.first[k], world.pairs.second[k]
-    d = sub(row(pose, j, X), row(pose, i, X))
+    d = way_between(world.particles, i, j)
     distance = sqrt(dot(d, d))
     per_distance = 1.0 / distance if distance > 0.0 else 1.0
     overlap = pose[i, RADIUS] + pose[j, RADIUS] - distance - world.pairs.rest[k] if counts else -inf

@@ -11,6 +11,10 @@ V, W = 0, 4  # twist and seen: velocity, 0, angular velocity, 0
 F, M = 0, 4  # load and acceleration: force, 0, moment, 0; acceleration and angular acceleration likewise
 INVERSE_MASS, INVERSE_INERTIA, MATERIAL, WEIGHT = 0, 1, 2, 3  # body: 1/m, 1/I, material, share that has weight
 
+# box: one row each; 0 in directions that are not periodic
+SPAN, PER_SPAN = 0, 1  # distance from an image to the next, and its inverse
+BOX_ROWS = 2
+
 # bond tables: the first two slots of every bond
 INDEX, INTACT = 0, 1
 BOND_SLOTS = 2

@@ -14,6 +14,7 @@ LAG = 0.0  # how much later than positions velocities belong at the end of a ste
 CHOICES: Any = None
 
 CHUNKED = False
+PERIODIC = False
 BONDS = False
 BOND_ORIENTATION = False
 BOND_VELOCITY = False

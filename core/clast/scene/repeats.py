@@ -1,0 +1,136 @@
+"""Repeats: whether a scene can repeat itself in the directions in which its domain is periodic.
+
+Nothing may tell one image from the next: sides are long enough that two particles meet at one place only, and walls
+and body forces are the same in every image.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from clast.config.beside import WallChoice
+from clast.config.scene import SceneConfig
+from clast.errors import ConfigError
+from clast.maths.box import Box
+from clast.scene.plan import largest_reach
+from clast.scene.scene import Scene
+
+Floats = NDArray[np.float64]
+LEAST_SKIN = 0.1
+"""Least way that a particle may go between two neighbour searches, as a share of the smallest radius."""
+LONGEST_BOND = 0.4
+"""Longest bond at the start as a share of a side: it may stretch by a quarter before its ends are nearer round the
+other way."""
+PLACES = 64
+ALIKE = 1e-9
+"""Difference of two distances or accelerations that rounding may make, as a share."""
+
+
+def most_skin(box: Box, radius: Floats, reach: float) -> float:
+    """Return how far each particle may go between two searches, in m, so that two are near in one image only.
+
+    Both images of a particle are then farther apart than twice what two particles reach: 4 (r + skin) + 2 reach ≤ side.
+
+    Parameters
+    ----------
+    box : Box
+    radius : (n,) float64
+        In m.
+    reach : float
+        How far beyond touch contacts can hold, in m.
+    """
+    if not box.repeats:
+        return np.inf
+    return float(0.25 * box.span[box.periodic].min() - radius.max() - 0.5 * reach)
+
+
+def check_repeats(scene: Scene) -> None:
+    """Check that a scene can repeat itself.
+
+    Raises
+    ------
+    ConfigError
+        If a periodic side is too short for its particles or bonds, or walls or body forces differ from image to image.
+    """
+    if scene.box.repeats:
+        _refuse_short_sides(scene)
+        _refuse_long_bonds(scene)
+        _refuse_uneven_walls(scene)
+        _refuse_uneven_forces(scene)
+
+
+def _refuse_short_sides(scene: Scene) -> None:
+    if scene.config.contacts is None:
+        return
+    skin, smallest = scene.config.neighbours.skin, float(scene.radius.min())
+    least = LEAST_SKIN * smallest if isinstance(skin, str) else 0.5 * skin
+    lacking = least - most_skin(scene.box, scene.radius, largest_reach(scene))
+    if lacking > 0.0:
+        span = scene.box.span
+        axis = int(np.argmin(np.where(scene.box.periodic, span, np.inf)))
+        raise _problem(
+            scene.config,
+            f"a side of {span[axis]:.4g} m along {'xyz'[axis]} is too short: the largest particles, with a radius of "
+            f"{scene.radius.max():.4g} m and a skin of {2.0 * least:.4g} m, would meet each other in two images; "
+            f"{span[axis] + 4.0 * lacking:.4g} m are the least, twice the distance at which two are neighbours",
+        )
+
+
+def _refuse_long_bonds(scene: Scene) -> None:
+    box = scene.box
+    share = np.abs(scene.bond_vectors[:, box.periodic]) / box.span[box.periodic]
+    if len(share) and share.max() > LONGEST_BOND:
+        k, axis = divmod(int(np.argmax(share)), share.shape[1])
+        side = float(box.span[box.periodic][axis])
+        i, j = scene.ends[k].tolist()
+        raise _problem(
+            scene.config,
+            f"bond {k} of particles {i} and {j} spans {share[k, axis]:.0%} of a side of {side:.4g} m: too much to tell "
+            f"which way round it goes. {share[k, axis] / LONGEST_BOND * side:.4g} m are the least",
+        )
+
+
+def _refuse_uneven_walls(scene: Scene) -> None:
+    for name, wall in scene.config.walls.items():
+        for axis in np.flatnonzero(scene.box.periodic):
+            if not _even(wall, scene, int(axis)):
+                raise scene.config.problem(
+                    ("walls", name),
+                    f"this wall is not the same in every image, and the domain is periodic along {'xyz'[axis]}; take a "
+                    "wall that goes on along it, such as a plane, or remove the direction from "
+                    "boundaries.domain.periodic",
+                )
+
+
+def _even(wall: WallChoice, scene: Scene, axis: int) -> bool:
+    """Tell whether a wall is as far from particles as from their images along an axis."""
+    step = np.zeros(3)
+    step[axis] = scene.box.span[axis]
+    asked = scene.position[:: -(-len(scene.position) // PLACES)]
+    here = np.array([wall.distance(x) for x in asked])
+    there = np.array([wall.distance(x) for x in asked + step])
+    return bool(np.all(np.abs(here - there) <= ALIKE * (np.abs(here) + step[axis])))
+
+
+def _refuse_uneven_forces(scene: Scene) -> None:
+    x = scene.position[0]
+    for k, chosen in enumerate(scene.config.body_forces):
+        numbers = chosen.part.numbers(chosen.params, scene.config.time.mass_scaling)
+        for axis in np.flatnonzero(scene.box.periodic):
+            step = np.zeros(3)
+            step[axis] = scene.box.span[axis]
+            here, there = (
+                np.array(chosen.part.acceleration(numbers, tuple(place.tolist()), (0.0, 0.0, 0.0), 0.0))
+                for place in (x, x + step)
+            )
+            if np.abs(here - there).max() > ALIKE * np.abs(here).max():
+                raise scene.config.problem(
+                    ("body_forces", k),
+                    f"{chosen.name!r} is not the same in every image, and the domain is periodic along {'xyz'[axis]}; "
+                    "remove it, or the direction from boundaries.domain.periodic",
+                )
+
+
+def _problem(config: SceneConfig, text: str) -> ConfigError:
+    return config.problem(("boundaries", "domain"), text)
