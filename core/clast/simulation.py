@@ -12,8 +12,6 @@ from clast.engine.crew import Crew
 from clast.engine.kernels.layout import (
     FIRST,
     INTACT,
-    INVERSE_INERTIA,
-    INVERSE_MASS,
     LEFT,
     STALE,
     START,
@@ -26,10 +24,11 @@ from clast.engine.parts_used import parts_of
 from clast.engine.rehearsal import try_laws
 from clast.engine.state import Floats, World
 from clast.engine.step_keeper import StepKeeper
-from clast.engine.tables import slot_view
+from clast.engine.tables import slot_view, take_out
 from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
+from clast.maths.box import Box
 from clast.observer import Ended, Observer
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
@@ -133,6 +132,11 @@ class Simulation:
         return self.timeline.dt
 
     @property
+    def box(self) -> Box:
+        """The box that repeats itself, or holds the particles, as it is now."""
+        return self.scene.box
+
+    @property
     def bonds_broken(self) -> int:
         """Number of bonds that broke."""
         return int(self.world.cracks.filled.sum())
@@ -225,7 +229,7 @@ class Simulation:
             search = self.config.neighbours.search.part
             if self.plan.contacts.between_particles:
                 given = (particles, world.chunks, world.bonds, world.pairs, search, slack + 0.5 * self.reach)
-                pairs = find_pairs(*given, self.scene.box)
+                pairs = find_pairs(*given, self.box)
                 world = world._replace(pairs=pairs)
             if self.plan.walls:
                 walls, near_walls, far = world.walls, self.kernel.near_walls, self.skin.most + self.reach
@@ -283,16 +287,11 @@ class Simulation:
         if self.config.boundaries.domain is None:
             return
         particles, bonds = self.world.particles, self.world.bonds
-        leaving = outside_of(self.scene.box, particles.pose[:, X : X + 3]) & (particles.present != 0)
+        leaving = outside_of(self.box, particles.pose[:, X : X + 3]) & (particles.present != 0)
         if not leaving.any():
             return
         before = self.ledger().stored if self.plan.ledger else 0.0
         self.removed += int(leaving.sum())
-        particles.present[leaving] = 0
-        particles.twist[leaving] = particles.acceleration[leaving] = 0.0
-        particles.body[leaving, INVERSE_MASS] = particles.body[leaving, INVERSE_INERTIA] = 0.0
-        if len(bonds.first):
-            let_go = leaving[bonds.first] | leaving[bonds.second]
-            slot_view(bonds, INTACT)[let_go] = 0.0
+        take_out(particles, bonds, leaving)
         if self.plan.ledger:
             self.world.ledger[-1, LEFT] += before - self.ledger().stored

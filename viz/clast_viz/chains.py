@@ -50,14 +50,16 @@ def force_chains(frame: Frame, contacts: Contacts, piece: NDArray[np.int64], bud
     """
     present = np.isfinite(frame.position).all(axis=1)
     weight = np.maximum(np.bincount(piece[present], minlength=int(piece.max(initial=0)) + 1), 1)
-    sums = [np.bincount(piece[present], frame.position[present, c], len(weight)) for c in range(3)]
-    centre = (np.stack(sums, axis=1) / weight[:, None]).astype(np.float32)
+    place_of = frame.unwrapped
+    sums = [np.bincount(piece[present], place_of[present, c], len(weight)) for c in range(3)]
+    centre = frame.box.wrapped(np.stack(sums, axis=1) / weight[:, None]).astype(np.float32)
     first = piece[contacts.i]
     # a wall is met at many places, so that its contacts are counted by piece and number of the wall
     second = np.where(contacts.j >= 0, piece[np.maximum(contacts.j, 0)], contacts.j.astype(np.int64))
     link, force, place = _summed(first, second, contacts)
     near_end = np.where(link[:, :1] < 0, place, centre[np.maximum(link[:, 0], 0)])
-    ends = np.stack([near_end, centre[link[:, 1]]], axis=1)
+    far_end = centre[link[:, 1]]
+    ends = np.stack([frame.box.beside(far_end, near_end), far_end], axis=1)
     order = np.argsort(-force, kind="stable")[:budget]
     return Chains(ends[order].astype(np.float32), force[order].astype(np.float32))
 

@@ -57,6 +57,7 @@ def _particles(run: Run, frame: Frame) -> Columns:
         "grain": run.grain,
         "material": run.material,
         "fragment": pieces(run, frame),
+        **({"image": frame.image} if frame.box.repeats else {}),
     }
     return _with_units(
         {name: values[here] for name, values in columns.items()}, {"position": "m", "velocity": "m/s", "radius": "m"}

@@ -20,6 +20,7 @@ from clast.results.run import Frame, Run
 FILE = "lammps"
 DUMP, DATA = "particles.dump", "bonds.data"
 COLUMNS = "id type mol x y z vx vy vz radius"
+IMAGES = " ix iy iz"
 _ROW = "%d %d %d" + " %.9g" * 6 + " %.17g"
 
 
@@ -43,11 +44,15 @@ def write_lammps(run: Run, params: LammpsParams, path: Path) -> Written:
 def _dump(file: TextIO, run: Run, frame: Frame) -> None:
     here = _present(frame)
     file.write(f"ITEM: TIME\n{frame.time:.17g}\nITEM: TIMESTEP\n{frame.step}\nITEM: NUMBER OF ATOMS\n{here.sum()}\n")
-    file.write("ITEM: BOX BOUNDS ff ff ff\n")
+    file.write(f"ITEM: BOX BOUNDS {' '.join('pp' if repeats else 'ff' for repeats in run.periodic)}\n")
     file.writelines(f"{low:.9g} {high:.9g}\n" for low, high in _box(run, frame))
-    file.write(f"ITEM: ATOMS {COLUMNS}\n")
+    file.write(f"ITEM: ATOMS {COLUMNS}{IMAGES if frame.box.repeats else ''}\n")
     who = np.column_stack([np.flatnonzero(here) + 1, run.material[here] + 1, _molecules(run)[here]])
-    np.savetxt(file, np.column_stack([who, frame.position[here], frame.velocity[here], run.radius[here]]), fmt=_ROW)
+    rows = np.column_stack([who, frame.position[here], frame.velocity[here], run.radius[here]])
+    if frame.box.repeats:
+        np.savetxt(file, np.column_stack([rows, frame.image[here]]), fmt=_ROW + " %d" * 3)
+    else:
+        np.savetxt(file, rows, fmt=_ROW)
 
 
 def _data(run: Run, frame: Frame, density: NDArray[np.float64]) -> Iterator[str]:
@@ -67,7 +72,8 @@ def _data(run: Run, frame: Frame, density: NDArray[np.float64]) -> Iterator[str]
     for k in np.flatnonzero(here):
         x, y, z = frame.position[k]
         size = f"{2.0 * run.radius[k]:.17g} {density[k]:.17g}"
-        yield f"{k + 1} {molecules[k]} {run.material[k] + 1} {size} {x:.9g} {y:.9g} {z:.9g}"
+        image = " {} {} {}".format(*frame.image[k]) if frame.box.repeats else ""
+        yield f"{k + 1} {molecules[k]} {run.material[k] + 1} {size} {x:.9g} {y:.9g} {z:.9g}{image}"
     if len(held):
         yield from ("", "Bonds", "")
         yield from (f"{b + 1} 1 {i + 1} {j + 1}" for b, (i, j) in zip(held, run.bond_ends[held], strict=True))
@@ -83,13 +89,14 @@ def _molecules(run: Run) -> NDArray[np.int64]:
 
 
 def _box(run: Run, frame: Frame) -> list[tuple[float, float]]:
-    """Return bounds around all spheres."""
+    """Return bounds around all spheres, those of the box where it repeats itself."""
     here = _present(frame)
     position = frame.position[here].astype(np.float64)
     if not len(position):
         return [(-1.0, 1.0)] * 3
     room = 2.0 * run.radius[here][:, None]
-    low, high = (position - room).min(axis=0), (position + room).max(axis=0)
+    low = np.where(frame.box.periodic, frame.box.lower, (position - room).min(axis=0))
+    high = np.where(frame.box.periodic, frame.box.upper, (position + room).max(axis=0))
     return list(zip(low.tolist(), high.tolist(), strict=True))
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from clast.results.run import Frame, Run
 from clast_viz.colours import colour_map
 from clast_viz.loads import LOAD, drawn_bonds, signed_load
-from clast_viz.picture_parts import BALL_COLOUR, add_balls, add_scale, add_text, add_wall
+from clast_viz.picture_parts import BALL_COLOUR, add_balls, add_box, add_scale, add_text, add_wall
 
 MOST_BONDS = 20_000  # above, the most loaded ones and a sample of the rest
 BALL_SIZE = 0.42  # of the radius where there are bonds, so that they are seen
@@ -39,13 +39,14 @@ def draw_grain(plotter: Any, run: Run, frame: Frame, height: int, *, bonds: bool
     for wall in run.walls.values():
         placed = wall.points + frame.wall_displacement[wall.index]
         add_wall(plotter, pv.PolyData.from_regular_faces(placed, wall.triangles))
+    add_box(plotter, frame.box)
     add_text(plotter, height, _caption(run, frame), (0.025, 0.945))
     _aim(plotter, run, frame, room_below=0.13 if bonds else 0.03)
 
 
 def _add_bonds(plotter: Any, run: Run, frame: Frame, height: int) -> None:
     load = signed_load(frame)
-    ends = frame.position[run.bond_ends].astype(np.float64)
+    ends = frame.lines(run.bond_ends).astype(np.float64)
     shown = drawn_bonds(load, ends.sum(axis=(1, 2)), MOST_BONDS)
     if not len(shown):
         return

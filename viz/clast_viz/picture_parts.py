@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.maths.box import Box
+
 MOST_SPHERES = 10_000  # above, each particle is a shaded point: glyphs would take minutes without a GPU
 BALL_COLOUR = "#ccd3db"
 PLATE_COLOUR = "#708090"
@@ -45,6 +47,15 @@ def add_wall(plotter: Any, wall: Any, opacity: float = 0.22) -> None:
     plotter.add_mesh(wall, color=PLATE_COLOUR, opacity=opacity, lighting=False)
     edges = wall.extract_feature_edges(boundary_edges=True, feature_edges=True, manifold_edges=False)
     plotter.add_mesh(edges, color=EDGE_COLOUR, line_width=2.0)
+
+
+def add_box(plotter: Any, box: Box) -> None:
+    """Draw the edges of a box that repeats itself."""
+    import pyvista as pv
+
+    if box.repeats:
+        edges = pv.Box(np.column_stack([box.lower, box.upper]).ravel())
+        plotter.add_mesh(edges, style="wireframe", color=EDGE_COLOUR, line_width=2.0)
 
 
 def add_scale(plotter: Any, mapper: Any, height: int, text: str, tall: float = 1.0, **look: Any) -> None:

@@ -52,6 +52,9 @@ class SceneLog:
         for name, wall in self._run.walls.items():
             moved = rr.Transform3D(translation=frame.wall_displacement[wall.index])
             self._stream.log(f"scene/walls/{name}", moved)
+        if frame.box.repeats:
+            middle, half = 0.5 * (frame.box.lower + frame.box.upper), 0.5 * (frame.box.upper - frame.box.lower)
+            self._stream.log("scene/box", rr.Boxes3D(centers=[middle], half_sizes=[half], colors=WALL_EDGE_COLOUR))
         self._log_damage(frame)
         self._log_bonds(k, frame)
         self._log_chains(k, frame)
@@ -93,7 +96,7 @@ class SceneLog:
         load = signed_load(frame)
         shown = drawn_bonds(load, frame.position[run.bond_ends].sum(axis=(1, 2)), self._bonds)
         bonds = rr.LineStrips3D.from_fields(
-            strips=_strips(frame.position[run.bond_ends[shown]]),
+            strips=_strips(frame.lines(run.bond_ends[shown])),
             colors=colour_of(load[shown]),
             radii=run.bond_diameter[shown] * (0.04 + 0.16 * np.abs(load[shown])),
         )

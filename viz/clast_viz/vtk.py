@@ -46,7 +46,8 @@ def write_vtk(run: Run, params: VtkParams, path: Path) -> Written:
     Point data: ``id``, ``radius`` in m, ``velocity`` in m/s, ``grain``, ``material``, ``fragment`` (which piece, held
     together by bonds), ``damage`` (share of the grain's bonds that are broken). Cell data: ``stress`` in Pa (tension
     positive) and ``failure`` (0 unloaded, 1 breaks) of the bonds, 0 on the vertices. Particles that have left the
-    domain are absent from then on, so ``id`` says which particle a point is.
+    domain are absent from then on, so ``id`` says which particle a point is. Bonds across a periodic face are not
+    drawn: their lines would cross the whole box.
 
     Where the run keeps contacts, ``contacts.vtkhdf`` beside it has a point for each: ``i``, ``j`` (−1 − w for wall w),
     ``force`` on j, ``normal_force`` and ``tangential_force`` in N.
@@ -78,7 +79,9 @@ def _write(path: Path, frames: Sequence[int], append: Callable[[TemporalPolyData
 def _append_frame(polydata: TemporalPolyData, run: Run, frame: Frame, damage: GrainDamage, budget: int | None) -> None:
     present = np.asarray(np.isfinite(frame.position).all(axis=1))
     renumbered = np.cumsum(present) - 1
-    shown = drawn_bonds(signed_load(frame), frame.position[run.bond_ends].sum(axis=(1, 2)), budget)
+    ends = frame.position[run.bond_ends]
+    inside = np.where((frame.lines(run.bond_ends) == ends).all(axis=(1, 2)), signed_load(frame), np.float32(np.nan))
+    shown = drawn_bonds(inside, ends.sum(axis=(1, 2)), budget)
     lines = renumbered[run.bond_ends[shown]].astype(np.int64)
     on_vertices = np.zeros(int(present.sum()), dtype=np.float32)
     polydata.append(

@@ -159,6 +159,15 @@ def bond_slot(bonds: Bonds, slot: int) -> Floats:
     return result
 
 
+def take_out(particles: Particles, bonds: Bonds, leaving: NDArray[np.bool_]) -> None:
+    """Take particles, (n,) bool, out of a scene: they rest, nothing moves them, and their bonds let go."""
+    particles.present[leaving] = 0
+    particles.twist[leaving] = particles.acceleration[leaving] = 0.0
+    particles.body[leaving, INVERSE_MASS] = particles.body[leaving, INVERSE_INERTIA] = 0.0
+    if len(bonds.first):
+        slot_view(bonds, INTACT)[leaving[bonds.first] | leaving[bonds.second]] = 0.0
+
+
 def intact(bonds: Bonds) -> NDArray[np.bool_]:
     """Return which bonds still hold, (m,) by bond number; fading ones no longer count."""
     return np.equal(bond_slot(bonds, INTACT), 1.0)

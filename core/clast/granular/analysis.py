@@ -160,8 +160,8 @@ class _Eye:
     def moment(self, k: int, seen: _Look, bins: int, tolerance: float) -> Moment:
         """Return what a close look tells."""
         run, tube = self.run, self.bed.tube
-        position = seen.frame.position.astype(float)
-        pairs = touching_bodies(position, run.radius, run.grain, tolerance)
+        position = seen.frame.unwrapped
+        pairs = touching_bodies(position, run.radius, run.grain, tolerance, seen.frame.box)
         centre = self._centres(position)
         height, distance = self.bed.heights(centre), self.bed.distances(centre)
         primaries = packed(self.bed, self.grains, seen.pieces, position, seen.extent)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.maths.box import Box
 from clast.scene.bonding import close_pairs
 
 Floats = NDArray[np.float64]
@@ -13,7 +14,9 @@ TOLERANCE = 0.01
 """Gap up to which two primaries touch, as a share of the mean primary diameter."""
 
 
-def touching_bodies(position: Floats, radius: Floats, body: Ints, tolerance: float = TOLERANCE) -> Ints:
+def touching_bodies(
+    position: Floats, radius: Floats, body: Ints, tolerance: float = TOLERANCE, box: Box | None = None
+) -> Ints:
     """Return the pairs of bodies of which at least one primary of each touch.
 
     Parameters
@@ -26,6 +29,8 @@ def touching_bodies(position: Floats, radius: Floats, body: Ints, tolerance: flo
         The grain, or the fragment, of each primary; −1 for none.
     tolerance : float
         Primaries touch where the gap of their surfaces is at most this share of the mean primary diameter.
+    box : Box, optional
+        Where it repeats itself, bodies touch across its faces too.
 
     Returns
     -------
@@ -42,7 +47,7 @@ def touching_bodies(position: Floats, radius: Floats, body: Ints, tolerance: flo
     if not len(counted):
         return np.zeros((0, 2), np.int64)
     reach = tolerance * 2.0 * float(radius[counted].mean())
-    ends, _ = close_pairs(position[counted], radius[counted], reach)
+    ends, _ = close_pairs(position[counted], radius[counted], reach, box)
     pairs = np.sort(body[counted][ends], axis=1)
     return np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0).reshape(-1, 2)
 

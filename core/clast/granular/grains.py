@@ -107,7 +107,7 @@ def _densities(run: Run) -> Floats:
 
 
 def _envelopes(run: Run, count: int) -> Floats:
-    position = run.frame(0).position.astype(np.float64)
+    position = run.frame(0).unwrapped
     order = np.argsort(run.grain, kind="stable")
     bounds = np.searchsorted(run.grain[order], np.arange(count + 1))
     members = [order[first:last] for first, last in pairwise(bounds)]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Places = NDArray[np.floating[Any]]
 
 
 class Box(NamedTuple):
@@ -58,6 +59,10 @@ class Box(NamedTuple):
     def nearest(self, way: Floats) -> Floats:
         """Return ways from one particle to another, (..., 3) in m, as they are to the nearest image of the other."""
         return np.asarray(way - self.span * np.rint(way * self.per_span))
+
+    def beside(self, first: Places, second: Places) -> Floats:
+        """Return the images of the second positions, (..., 3) in m, that are nearest to the first ones."""
+        return np.asarray(second - self.span * np.rint((second - first) * self.per_span))
 
     def images(self, position: Floats) -> NDArray[np.int64]:
         """Return how many boxes away from this one positions lie in each direction, (..., 3)."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.errors import KeyPath
+from clast.maths.box import Box, open_space
 from clast.parts.params import Params
 from clast.parts.room import FilledRoom
 
@@ -97,10 +98,13 @@ class Site(NamedTuple):
         Folder of the scene file, for relative paths.
     density : mapping
         Density of each material in kg/m³, by name.
+    box : Box
+        The domain, and the directions in which it repeats itself; open space where there is none.
     """
 
     folder: Path
     density: Mapping[str, float] = {}
+    box: Box = open_space()
 
 
 class Gaps(NamedTuple):

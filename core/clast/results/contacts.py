@@ -59,7 +59,7 @@ def find_contacts(simulation: Simulation, inside: bool = False) -> Contacts:
     return Contacts(
         i=found[:, 0].astype(np.uint32),
         j=found[:, 1].astype(np.int32),
-        position=found[:, 2:5].astype(np.float32),
+        position=simulation.box.wrapped(found[:, 2:5]).astype(np.float32),
         force=found[:, 5:8].astype(np.float32),
         normal_force=found[:, 8].astype(np.float32),
         tangential_force=found[:, 9].astype(np.float32),

@@ -28,10 +28,11 @@ class Frames:
 
     def observe(self, simulation: Simulation) -> None:
         """Append the scene; bond loads are computed here, at the positions shown."""
-        scene, particles = simulation.scene, simulation.world.particles
+        scene, particles, box = simulation.scene, simulation.world.particles, simulation.box
         gone = particles.present == 0
+        place = particles.pose[:, X : X + 3]
         with np.errstate(over="ignore"):  # a run that blows up is reported by the simulation
-            position = particles.pose[:, X : X + 3].astype(np.float32)
+            position = box.wrapped(place).astype(np.float32)
             velocity = particles.twist[:, V : V + 3].astype(np.float32)
         position[gone] = np.nan
         row = {
@@ -42,6 +43,8 @@ class Frames:
             "velocity": velocity,
             "wall_displacement": simulation.world.walls.displacement,
         }
+        if box.repeats:
+            row |= {"image": box.images(place).astype(np.int32), "box": np.array([box.lower, box.upper])}
         if simulation.plan.orientation:
             row["orientation"] = particles.pose[:, Q : Q + 4].astype(np.float32)
         if simulation.plan.ledger:

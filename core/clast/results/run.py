@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.errors import RunError
+from clast.maths.box import Box, open_space
 from clast.results.contacts import ENDS, GROUP, Contacts
 from clast.results.reading import (
     CONFIG_FILE,
@@ -31,7 +32,8 @@ from clast.results.reference import read_references
 class Frame(NamedTuple):
     """State of the scene at one recorded moment, in SI units.
 
-    ``n`` particles, ``m`` bonds, ``w`` walls. A particle that has left the domain has NaN positions.
+    ``n`` particles, ``m`` bonds, ``w`` walls. A particle that has left the domain has NaN positions; in directions that
+    are periodic it goes on, and ``position`` tells where its image in the box is.
     """
 
     time: float
@@ -51,6 +53,20 @@ class Frame(NamedTuple):
     """(m,) failure index: 0 unloaded, 1 breaks, 0 when broken"""
     wall_displacement: NDArray[np.float64]
     """(w, 3), m"""
+    image: NDArray[np.int32]
+    """(n, 3) how many boxes away each particle is; 0 in directions that are not periodic"""
+    box: Box
+    """The box that repeats itself, open space where none does"""
+
+    @property
+    def unwrapped(self) -> NDArray[np.float64]:
+        """Where particles are that went on as they left the box, (n, 3) in m; grains are whole there."""
+        return self.position + self.box.span * self.image
+
+    def lines(self, pairs: NDArray[Any]) -> NDArray[np.float32]:
+        """From the first particle of each pair, (k, 2), to the nearest image of the second, (k, 2, 3) in m."""
+        first, second = self.position[pairs[:, 0]], self.position[pairs[:, 1]]
+        return np.stack([first, self.box.beside(first, second).astype(np.float32)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -107,6 +123,8 @@ class Run:
         Index into ``materials`` of each particle.
     materials : list of str
         Names of the materials.
+    periodic : (3,) bool
+        Directions in which the scene repeats itself.
     bond_ends : (m, 2) uint32
         The two particles of each bond.
     bond_diameter, bond_length : (m,) float64
@@ -161,6 +179,7 @@ class Run:
         self.grain: NDArray[np.int64] = file["particles/grain"][:]
         self.material: NDArray[np.uint8] = file["particles/material"][:]
         self.materials = strings(file["particles/material"].attrs["names"])
+        self.periodic = np.array(file.attrs.get("periodic", [False] * 3), bool)
         self.bond_ends: NDArray[np.uint32] = file["bonds/ends"][:].reshape(-1, 2)
         self.bond_diameter: NDArray[np.float64] = file["bonds/diameter"][:]
         self.bond_length: NDArray[np.float64] = file["bonds/length"][:]
@@ -208,7 +227,16 @@ class Run:
             bond_stress=frames["bond_stress"][k],
             bond_failure=frames["bond_failure"][k],
             wall_displacement=frames["wall_displacement"][k].reshape(-1, 3),
+            image=frames["image"][k] if "image" in frames else np.zeros((len(self.radius), 3), np.int32),
+            box=self._box(k),
         )
+
+    def _box(self, k: int) -> Box:
+        """Return the box of the ``k``-th frame in the file."""
+        if "box" not in self._frames:
+            return open_space()
+        lower, upper = self._frames["box"][k]
+        return Box(lower, upper, self.periodic)
 
     def contacts(self, k: int) -> Contacts | None:
         """Read what touches in frame ``k``; None where the frames keep no contacts, see ``output.contacts``.

@@ -51,6 +51,7 @@ def _describe(file: Any, simulation: Simulation) -> None:
 
     scene = simulation.scene
     file.attrs.update({"schema": 1, "name": scene.config.name, "clast_version": __version__, "complete": False})
+    file.attrs["periodic"] = scene.box.periodic
     particles = file.create_group("particles")
     particles["radius"], particles["grain"] = scene.radius, scene.grain
     particles["material"] = scene.material.astype(np.uint8)
@@ -133,7 +134,7 @@ class Store:
             bond,
             cracks.ends[rows, 0],
             cracks.ends[rows, 1],
-            cracks.position[rows],
+            simulation.box.wrapped(cracks.position[rows]),
             cracks.mode[rows].astype(np.uint8),
             cracks.load[rows, 0] / area,
             cracks.load[rows, 1] / area,

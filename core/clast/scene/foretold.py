@@ -8,6 +8,7 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.parts.generator import Gaps, Prediction, Site
 from clast.scene.rooms import refuse_intruders
+from clast.scene.scene import box_of
 
 
 def foretold(config: SceneConfig, chosen: Chosen) -> Prediction | None:
@@ -32,7 +33,8 @@ def foretold(config: SceneConfig, chosen: Chosen) -> Prediction | None:
 
 def site(config: SceneConfig) -> Site:
     """Return what the generators of a scene may know of it."""
-    return Site(config.folder, {name: material.density for name, material in config.materials.items()})
+    densities = {name: material.density for name, material in config.materials.items()}
+    return Site(config.folder, densities, box_of(config))
 
 
 def bonded_gaps(config: SceneConfig) -> Gaps | None:

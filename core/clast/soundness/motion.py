@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.kernels.layout import RADIUS, V, W
+from clast.engine.kernels.layout import INTACT, RADIUS, V, W, X
 from clast.engine.state import World
+from clast.engine.tables import slot_view
 from clast.scene.scene import Scene
 from clast.soundness.near import Nearness
 from clast.soundness.suspects import suspects
@@ -15,6 +16,8 @@ MOST_WAY = 0.5
 """Longest way of a particle in one step, as a share of the smallest radius."""
 MOST_TURN = 0.5
 """Largest turn of a particle in one step in rad; beyond it orientations lose digits."""
+LONGEST_WAY = 0.45
+"""Longest bond that holds, as a share of a side of a periodic box."""
 DEEPEST = 1.0
 """Largest overlap, as a share of the smaller radius: beyond it a centre lies inside the other body."""
 
@@ -47,6 +50,23 @@ def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | No
     if plan.spin and turn[k] > MOST_TURN:
         return f"particle {k} turns by {turn[k]:.2g} rad in one step"
     return None
+
+
+def round_the_other_way(world: World) -> str | None:
+    """Return which bond spans so much of a periodic side that its ends are hardly nearer this way than the other."""
+    bonds, (span, per_span) = world.bonds, world.particles.box
+    if not span.any() or not len(bonds.first):
+        return None
+    place = world.particles.pose[:, X : X + 3]
+    away = (place[bonds.second] - place[bonds.first]) * per_span
+    share = np.abs(away - np.rint(away)).max(axis=2) * (slot_view(bonds, INTACT) == 1.0)
+    if share.max() <= LONGEST_WAY:
+        return None
+    b, lane = np.unravel_index(np.argmax(share), share.shape)
+    return (
+        f"the bond of particles {bonds.first[b, lane]} and {bonds.second[b, lane]} spans {share.max():.2g} of a side "
+        "of the periodic box, and from a half on it would go round the other way; make the box larger"
+    )
 
 
 def passed_through(near: Nearness, world: World, scene: Scene) -> str | None:

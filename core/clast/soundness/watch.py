@@ -7,7 +7,7 @@ from clast.engine.state import World
 from clast.scene.scene import Scene
 from clast.soundness.energy import EnergyWatch
 from clast.soundness.impacts import ImpactsAhead
-from clast.soundness.motion import lost, passed_through, too_fast
+from clast.soundness.motion import lost, passed_through, round_the_other_way, too_fast
 from clast.soundness.near import Gaps, Nearness
 
 
@@ -44,4 +44,4 @@ class Soundness:
 
     def motion_complaint(self, world: World, dt: float) -> str | None:
         """Return the same of single particles, for which neighbour lists need not be fresh."""
-        return lost(world, self.scene) or too_fast(world, self.scene, self.plan, dt)
+        return lost(world, self.scene) or too_fast(world, self.scene, self.plan, dt) or round_the_other_way(world)

@@ -19,6 +19,7 @@ from clast.verification.families import (
     meshes,
     oblique_impacts,
     packings,
+    periodic,
     rotations,
     scatter,
     solitary_wave,
@@ -47,6 +48,7 @@ FAMILIES: tuple[Family, ...] = (
     time_steps.FAMILY,
     surroundings.FAMILY,
     meshes.FAMILY,
+    periodic.FAMILY,
     packings.FAMILY,
     whole_runs.FAMILY,
 )

@@ -23,6 +23,9 @@ MOST = 100_000_000
 FITS = 1e-9
 """Share of a diameter by which a sphere may stick out: rounding."""
 
+MISFIT = 1e-5
+"""Share of a diameter by which the edge of a periodic box may differ from a whole number of cells: digits left out."""
+
 
 class Lattice(Params):
     r"""Equal spheres on a crystal lattice, each wholly inside a box or a ball.
@@ -40,7 +43,8 @@ class Lattice(Params):
     Limits
     ------
     Regular packings have weak and strong directions, and split along planes; random ones have none. In a box the
-    spheres fill it from side to side as far as whole ones fit, in a ball one sphere is in the middle.
+    spheres fill it from side to side as far as whole ones fit, in a ball one sphere is in the middle. Where an edge of
+    the box is that of a periodic domain, the lattice goes on across it; the edge must be a whole number of cells.
 
     Source
     ------
@@ -95,7 +99,7 @@ def generate(params: Lattice, site: Site) -> Packing:
     ConfigError
         There would be too many.
     """
-    position = in_a_ball(params) if params.box is None else in_a_box(params, params.box)
+    position = in_a_ball(params) if params.box is None else in_a_box(params, params.box, site.box.span)
     n, d = len(position), params.primary_diameter
     room = pi / 6.0 * (params.diameter or 0.0) ** 3 if params.box is None else float(np.prod(params.box))
     return Packing(
@@ -110,13 +114,45 @@ def generate(params: Lattice, site: Site) -> Packing:
     )
 
 
-def in_a_box(params: Lattice, box: tuple[float, float, float]) -> NDArray[np.float64]:
-    """Return the centres in a box about the origin, (n, 3) in m: what fits from one side on, moved to the middle."""
-    d = params.primary_diameter
-    free = np.array(box) - d * (1.0 - FITS)
-    places = _points(params, np.zeros(3), free)
+def in_a_box(params: Lattice, box: tuple[float, float, float], span: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the centres in a box about the origin, (n, 3) in m: what fits from one side on, moved to the middle.
+
+    Parameters
+    ----------
+    params : Lattice
+    box : three floats
+        Edges in m.
+    span : (3,) float64
+        Distances in m at which the scene repeats itself; 0 where it does not.
+    """
+    d, edges = params.primary_diameter, np.array(box)
+    goes_on = (span > 0.0) & (np.abs(edges - span) <= FITS * d)
+    stretch = np.where(goes_on, _whole_cells(params, edges, goes_on), 1.0)
+    free = np.where(goes_on, edges - 0.25 * d, edges - d * (1.0 - FITS))  # what lies at the far face is an image
+    places = _points(params, np.zeros(3), free) * stretch
     inside = places[np.all(places <= free, axis=1)]
     return np.asarray(inside - 0.5 * (inside.min(axis=0) + inside.max(axis=0)))
+
+
+def _whole_cells(params: Lattice, box: NDArray[np.float64], goes_on: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Return what the lattice is stretched by, for rounding alone, so that it goes on across some edges of a box.
+
+    Raises
+    ------
+    ConfigError
+        Such an edge is not a whole number of cells.
+    """
+    cell = (params.primary_diameter + params.gap) * np.array(CELLS[params.lattice].edges)
+    whole = np.maximum(np.rint(box / cell), 1.0) * cell
+    off = goes_on & (np.abs(box - whole) > MISFIT * params.primary_diameter)
+    if off.any():
+        k = int(np.argmax(off))
+        text = (
+            f"the domain repeats itself along {'xyz'[k]} every {box[k]:.12g} m, the lattice every {cell[k]:.12g} m: "
+            f"make domain and box {whole[k]:.12g} m long, or the gap another one"
+        )
+        raise ConfigError(text, at=("box", k))
+    return np.asarray(box / whole)
 
 
 def in_a_ball(params: Lattice) -> NDArray[np.float64]:
