@@ -56,6 +56,10 @@ class Box(NamedTuple):
         """Volume in m³."""
         return float(np.prod(self.upper - self.lower))
 
+    def per(self, length: float) -> Box:
+        """Return the box in another unit of length."""
+        return Box(self.lower / length, self.upper / length, self.periodic)
+
     def nearest(self, way: Floats) -> Floats:
         """Return ways from one particle to another, (..., 3) in m, as they are to the nearest image of the other."""
         return np.asarray(way - self.span * np.rint(way * self.per_span))

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from typing import Annotated
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.quantities import Length, Point
+from clast.maths.box import Box as Repeating
 from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
 from clast.plugins.registry import Registry
 from clast_plugins.generators.packing.agglomerate import packing_of, predict_spheres
 from clast_plugins.generators.packing.fill import Body, body_of, fill, near_in_number
+from clast_plugins.generators.packing.room import Floats
 from clast_plugins.generators.packing.spheres import SpheresParams, millimetres, number_of_primaries
-from clast_plugins.generators.packing.vessels import Box, Tube
+from clast_plugins.generators.packing.vessels import Box, Cell, Tube
+
+NOWHERE = np.zeros(3)
+ALIKE = 1e-9
+"""Difference, as a share, up to which an edge of the box is that of the domain."""
 
 
 class RandomPacking(SpheresParams):
@@ -32,6 +39,7 @@ class RandomPacking(SpheresParams):
     ------
     Spheres are pushed apart, they do not fall: none rests on others, and at porosities above about 0.45 hardly any
     touch. Below 0.36 no random packing of equal spheres exists; in rooms of a few diameters the limit is higher.
+    Where an edge of the box is that of a periodic domain, there is no wall: spheres push each other across it.
     They belong to no grain. ``bonds.between`` joins near ones all the same, unless its ``materials`` name others.
 
     Source
@@ -60,11 +68,17 @@ class RandomPacking(SpheresParams):
         return self
 
 
-def body(params: RandomPacking) -> Body:
-    """Return what is filled."""
+def body(params: RandomPacking, span: Floats = NOWHERE) -> Body:
+    """Return what is filled, in a scene that repeats itself at some distances, (3,) in m; 0 where it does not."""
     if params.box is not None:
-        x, y, z = params.box
-        return body_of(Box(0.5 * x, 0.5 * y, 0.5 * z), f"a box of {' x '.join(map(millimetres, params.box))}")
+        words = f"a box of {' x '.join(map(millimetres, params.box))}"
+        x, y, z = (0.5 * edge for edge in params.box)
+        goes_on = (span > 0.0) & (np.abs(np.array(params.box) - span) <= ALIKE * span)
+        if not goes_on.any():
+            return body_of(Box(x, y, z), words)
+        a, b, c = (~goes_on).tolist()
+        half = np.array([x, y, z])
+        return body_of(Cell((x, y, z), (a, b, c)), words, Repeating(-half, half, goes_on))
     assert params.diameter is not None
     assert params.height is not None
     words = f"a tube of {millimetres(params.diameter)}, {millimetres(params.height)} high"
@@ -73,7 +87,7 @@ def body(params: RandomPacking) -> Body:
 
 def predict(params: RandomPacking, site: Site, gaps: Gaps | None) -> Prediction:
     """Return how many spheres there will be, and about how many bonds."""
-    return predict_spheres(params, body(params), gaps)
+    return predict_spheres(params, body(params, site.box.span), gaps)
 
 
 def generate(params: RandomPacking, site: Site) -> Packing:
@@ -86,7 +100,7 @@ def generate(params: RandomPacking, site: Site) -> Packing:
     PackingError
         Larger overlaps stay than allowed, and ``accept_overlap`` is not set.
     """
-    room = body(params)
+    room = body(params, site.box.span)
     filled = fill(params, room)
     order = near_in_number(filled.position)
     return packing_of(params, room, filled, filled.position[order], filled.radius[order], grain=-1, also={})

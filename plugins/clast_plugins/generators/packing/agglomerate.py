@@ -122,7 +122,7 @@ def packing_of(
             **asked,
             "porosity_reached": free,
             **also,
-            **reached(params, filled, position, radius),
+            **reached(params, filled, position, radius, body.box),
         },
     )
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from clast.engine.chunks import LARGE
 from clast.errors import ConfigError, KeyPath, PackingError
+from clast.maths.box import Box, open_space
 from clast.scene.packing_report import contact_coordination, overlaps, sphere_volume
 from clast_plugins.generators.packing.relax import Relaxed, relax
 from clast_plugins.generators.packing.room import Floats, Room
@@ -36,16 +37,19 @@ class Body(NamedTuple):
         Diameter in m of the sphere with the volume that porosity refers to.
     words : str
         What it is, for messages.
+    box : Box
+        About the origin in m, with the directions in which the room repeats itself.
     """
 
     room: Room
     whole: float
     words: str
+    box: Box = open_space()
 
 
-def body_of(room: Room, words: str) -> Body:
+def body_of(room: Room, words: str, box: Box | None = None) -> Body:
     """Return a room in m as a body whose porosity refers to all of its volume."""
-    return Body(room, math.cbrt(6.0 * room.volume / math.pi), words)
+    return Body(room, math.cbrt(6.0 * room.volume / math.pi), words, box or open_space())
 
 
 class Filled(NamedTuple):
@@ -93,7 +97,7 @@ def fill(params: SpheresParams, body: Body) -> Filled:
     """
     spheres = plan(params, body)
     d = spheres.primary
-    relaxed = relax(spheres.shares, body.room.per(d), params.seed, spheres.allowed / d)
+    relaxed = relax(spheres.shares, body.room.per(d), params.seed, spheres.allowed / d, body.box.per(d))
     filled = Filled(spheres, d * relaxed.position, 0.5 * (d * spheres.shares), relaxed)
     if filled.relieved and not params.accept_overlap:
         raise PackingError(_too_dense(params, body, filled), _density_key(params))
@@ -112,9 +116,9 @@ def near_in_number(position: Floats) -> np.ndarray[tuple[int], np.dtype[np.int64
     return np.asarray(cKDTree(position).indices, np.int64)
 
 
-def reached(params: SpheresParams, filled: Filled, position: Floats, radius: Floats) -> Told:
-    """Return what is told of the spheres that are left of a packing."""
-    left = overlaps(position, radius)
+def reached(params: SpheresParams, filled: Filled, position: Floats, radius: Floats, box: Box) -> Told:
+    """Return what is told of the spheres that are left of a packing, in a box that may repeat itself."""
+    left = overlaps(position, radius, box)
     spheres, relaxed = filled.spheres, filled.relaxed
     return {
         "seed": params.seed,
@@ -126,7 +130,7 @@ def reached(params: SpheresParams, filled: Filled, position: Floats, radius: Flo
         "mean_overlap_m": left.mean,
         "allowed_overlap_m": spheres.allowed,
         "overlaps_within_tolerance": "no, accepted; contacts start stress-free" if filled.relieved else "yes",
-        "coordination_touching": contact_coordination(position, radius),
+        "coordination_touching": contact_coordination(position, radius, box=box),
     }
 
 

@@ -30,6 +30,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.maths.box import Box, open_space
+from clast_plugins.generators.packing.across import Seen
 from clast_plugins.generators.packing.room import Room, squares, uniforms
 
 Floats = NDArray[np.float64]
@@ -61,7 +63,7 @@ class Relaxed(NamedTuple):
     shakes: int
 
 
-def relax(diameter: Floats, room: Room, seed: int, tolerance: float) -> Relaxed:
+def relax(diameter: Floats, room: Room, seed: int, tolerance: float, box: Box | None = None) -> Relaxed:
     """Pack spheres into a room, each wholly inside.
 
     Parameters
@@ -74,6 +76,8 @@ def relax(diameter: Floats, room: Room, seed: int, tolerance: float) -> Relaxed:
         Start of the random numbers.
     tolerance : float
         Largest overlap wanted, in the same unit.
+    box : Box, optional
+        Where it repeats itself, spheres push each other across its faces.
 
     Returns
     -------
@@ -89,7 +93,7 @@ def relax(diameter: Floats, room: Room, seed: int, tolerance: float) -> Relaxed:
     """
     stream = np.random.Philox(seed)
     count = len(diameter)
-    spheres = SoftSpheres(diameter, room, tolerance, budget_for(count))
+    spheres = SoftSpheres(diameter, room, tolerance, budget_for(count), box or open_space())
     position = spheres.confine(room.random(stream, count, float(spheres.radius.min())))
     best, least, shakes = position, math.inf, 0
     while True:
@@ -126,9 +130,9 @@ class SoftSpheres:
         Pushes done, and left of the budget.
     """
 
-    def __init__(self, diameter: Floats, room: Room, tolerance: float, budget: int) -> None:
+    def __init__(self, diameter: Floats, room: Room, tolerance: float, budget: int, box: Box) -> None:
         self.radius = 0.5 * diameter
-        self.room = room
+        self.room, self.box = room, box
         self.tolerance = tolerance
         self.sweeps = 0
         self.left = budget
@@ -146,20 +150,25 @@ class SoftSpheres:
 
         if self._listed_at is None or _moved(position, self._listed_at) > 0.5 * SKIN:
             self._list_pairs(position)
-        self.force = np.empty_like(position)
+        seen = self._seen.places(position)
+        force = np.empty_like(seen)
         self.sweeps += 1
         self.left -= 1
-        largest, self.energy = push(position, self.radius, self._first, self._second, self.force)
+        largest, self.energy = push(seen, self._radius, self._first, self._second, force)
+        self.force = self._seen.gathered(force)
         return float(largest)
 
     def _list_pairs(self, position: Floats) -> None:
         from scipy.spatial import cKDTree
 
-        pairs = cKDTree(position).query_pairs(2.0 * self.radius.max() + SKIN, output_type="ndarray")
-        way = position[pairs[:, 0]] - position[pairs[:, 1]]
-        near = squares(way) <= (self.radius[pairs].sum(axis=1) + SKIN) ** 2
+        far = 2.0 * float(self.radius.max()) + SKIN
+        self._seen = Seen(position, far, self.box)
+        places, self._radius = self._seen.places(position), self.radius[self._seen.which]
+        pairs = cKDTree(places).query_pairs(far, output_type="ndarray")
+        way = places[pairs[:, 0]] - places[pairs[:, 1]]
+        near = squares(way) <= (self._radius[pairs].sum(axis=1) + SKIN) ** 2
         pairs = pairs[near]
-        pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+        pairs = self._seen.once(pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))])
         self._first, self._second = pairs[:, 0].astype(np.int64), pairs[:, 1].astype(np.int64)
         self._listed_at = position.copy()
 

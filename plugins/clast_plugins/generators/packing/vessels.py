@@ -1,4 +1,4 @@
-"""Rooms with straight sides: a box, and an upright tube."""
+"""Rooms with straight sides: a box, one that repeats itself, and an upright tube."""
 
 from __future__ import annotations
 
@@ -47,6 +47,50 @@ class Box(NamedTuple):
         array([[ 0. ,  1.5, -0.5]])
         """
         free = np.array(self) - margin[:, None]
+        return np.clip(position, -free, free)
+
+
+class Cell(NamedTuple):
+    """A box about the origin, by half its edges, that has no walls in the directions in which it repeats itself."""
+
+    half: tuple[float, float, float]
+    closed: tuple[bool, bool, bool]
+
+    @property
+    def volume(self) -> float:
+        """Volume of the box."""
+        return Box(*self.half).volume
+
+    @property
+    def surface(self) -> float:
+        """Surface of the sides that are walls.
+
+        >>> Cell((1.0, 2.0, 3.0), (False, False, True)).surface
+        16.0
+        """
+        return sum(self.volume / half for half, closed in zip(self.half, self.closed, strict=True) if closed)
+
+    @property
+    def inradius(self) -> float:
+        """Radius of the largest sphere that has room between the walls."""
+        return min((half for half, closed in zip(self.half, self.closed, strict=True) if closed), default=math.inf)
+
+    def per(self, length: float) -> Cell:
+        """Return the room in another unit of length."""
+        x, y, z = self.half
+        return Cell((x / length, y / length, z / length), self.closed)
+
+    def random(self, stream: np.random.Philox, count: int, margin: float) -> Floats:
+        """Return ``count`` points (count, 3), uniform among those at least ``margin`` from the walls."""
+        return uniforms(stream, count) * (np.array(self.half) - margin * np.array(self.closed))
+
+    def confine(self, position: Floats, margin: Floats) -> Floats:
+        """Return centres (n, 3) moved straight to their margins (n,) from the walls.
+
+        >>> Cell((2.0, 2.0, 1.0), (False, True, True)).confine(np.array([[9.0, 3.0, -1.0]]), np.array([0.5]))
+        array([[ 9. ,  1.5, -0.5]])
+        """
+        free = np.where(self.closed, np.array(self.half) - margin[:, None], np.inf)
         return np.clip(position, -free, free)
 
 
