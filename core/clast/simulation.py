@@ -24,7 +24,7 @@ from clast.engine.parts_used import parts_of
 from clast.engine.rehearsal import try_laws
 from clast.engine.state import Floats, World
 from clast.engine.step_keeper import StepKeeper
-from clast.engine.tables import slot_view, take_out
+from clast.engine.tables import box_now, slot_view, take_out
 from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
@@ -33,6 +33,7 @@ from clast.observer import Ended, Observer
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, largest_reach
+from clast.scene.repeats import most_skin, search_slack
 from clast.scene.scene import Scene
 from clast.scene.start import check_start, outside_of
 from clast.scene.world import build_world, relieve
@@ -134,7 +135,7 @@ class Simulation:
     @property
     def box(self) -> Box:
         """The box that repeats itself, or holds the particles, as it is now."""
-        return self.scene.box
+        return box_now(self.scene.box, self.world.particles)
 
     @property
     def bonds_broken(self) -> int:
@@ -224,11 +225,12 @@ class Simulation:
         """Search for neighbours at the present positions."""
         world = self.world
         particles = world.particles
-        slack = choose_slack(particles, self.skin, self.dt)
+        slack = choose_slack(particles, self.skin, self.dt, most_skin(self.scene, self.box))
         if self.plan.contacts is not None:
             search = self.config.neighbours.search.part
             if self.plan.contacts.between_particles:
-                given = (particles, world.chunks, world.bonds, world.pairs, search, slack + 0.5 * self.reach)
+                wide = search_slack(self.scene, slack + 0.5 * self.reach)
+                given = (particles, world.chunks, world.bonds, world.pairs, search, wide)
                 pairs = find_pairs(*given, self.box)
                 world = world._replace(pairs=pairs)
             if self.plan.walls:
@@ -247,7 +249,7 @@ class Simulation:
 
     def ledger(self) -> Ledger:
         """Return where all energy is now; losses are only known with ``output.ledger``."""
-        found = np.zeros(9)
+        found = np.zeros(10)
         self.kernel.energies(self.world, self.step > 0, found)
         return read_ledger(self.world, found)
 

@@ -20,6 +20,7 @@ from clast.scene.compression import Gauge
 from clast.scene.concerns import concerns
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
 from clast.scene.plan import blueprint
+from clast.scene.repeats import most_skin
 from clast.scene.scatter import scatter_entries
 from clast.scene.scene import Scene
 from clast.scene.start import check_start
@@ -197,7 +198,7 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
         rows.append(("bonds", f"{size:.0f} bytes each, {bond_offsets(plan.bonds)['end']} numbers"))
     if plan.contacts is not None and plan.contacts.between_particles:
         search = scene.config.neighbours.search.part
-        slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt)
+        slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt, most_skin(scene))
         if search.told is not None:
             rows.append(("neighbour search", search.told(scene.radius + slack)))
         none = empty_pairs(world.chunks, plan.remembered)

@@ -166,6 +166,7 @@ Moment = Annotated[float, Unit("N m")]
 Mass = Annotated[float, Unit("kg")]
 Angle = Annotated[float, Unit("rad")]
 Frequency = Annotated[float, Unit("Hz")]
+StrainRate = Annotated[float, Unit("1/s")]
 Number = Annotated[float, Unit("1")]
 
 
@@ -194,4 +195,5 @@ VelocityVector = Annotated[tuple[Velocity, Velocity, Velocity], _Three]
 SpinVector = Annotated[tuple[AngularVelocity, AngularVelocity, AngularVelocity], _Three]
 ForceVector = Annotated[tuple[Force, Force, Force], _Three]
 MomentVector = Annotated[tuple[Moment, Moment, Moment], _Three]
+StrainRates = Annotated[tuple[StrainRate, StrainRate, StrainRate], _Three]
 AccelerationVector = Annotated[tuple[Acceleration, Acceleration, Acceleration], _Three]

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo,
 
 from clast.config.choice import Chosen, PartOf, default_part, registry_of
 from clast.config.problems import refuse
-from clast.config.quantities import Area, Density, Length, Number, Point, Stress, Time, Velocity
+from clast.config.quantities import Area, Density, Length, Number, Point, StrainRates, Stress, Time, Velocity
 from clast.config.scatter import Scatter, scatter_problems
 from clast.config.stages import Stages
 from clast.parts.params import Params
@@ -106,11 +106,22 @@ class Domain(Params):
             "at the other, and bonds and contacts reach across",
         ),
     ] = ()
+    strain_rate: Annotated[
+        StrainRates | None,
+        Field(description="Rates at which the box grows along x, y and z about its middle, 0 where it is not periodic"),
+    ] = None
+    strain_measure: Annotated[
+        Literal["logarithmic", "engineering"],
+        Field(description="Strain of which the rate stays: ln(L/L0), or L/L0 - 1"),
+    ] = "logarithmic"
 
     @model_validator(mode="after")
     def _is_a_box(self) -> Domain:
         if any(low >= high for low, high in zip(self.lower, self.upper, strict=True)):
             raise ValueError("every coordinate of 'lower' must be smaller than that of 'upper'")
+        for axis, rate in zip("xyz", self.strain_rate or (), strict=False):
+            if rate != 0.0 and axis not in self.periodic:
+                raise ValueError(f"strain_rate stretches the box along {axis}, where it is not periodic; add it there")
         return self
 
 

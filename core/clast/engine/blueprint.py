@@ -110,8 +110,8 @@ class Blueprint:
 
     ``applied_loads`` is whether a constant force or torque acts on some particle, ``ledger`` whether energies are
     booked, ``chunked`` whether the scene is cut into chunks that threads can share, ``periodic`` whether it repeats
-    itself in some direction, ``curved_walls`` whether some wall is not flat, ``step_share`` what damping of motion and
-    walls that give way leave of the stable step.
+    itself in some direction, ``stretches`` whether the box in which it does is stretched, ``curved_walls`` whether some
+    wall is not flat, ``step_share`` what damping of motion and walls that give way leave of the stable step.
     """
 
     integrator: Integrator
@@ -124,6 +124,7 @@ class Blueprint:
     ledger: bool = False
     chunked: bool = False
     periodic: bool = False
+    stretches: bool = False
     curved_walls: bool = False
     damping: Damping | None = None
     step_share: float = 1.0

@@ -15,6 +15,7 @@ from clast.engine.kernels.layout import (
     APPLIED_WORK,
     BODY_WORK,
     BOND_VISCOUS,
+    BOX_WORK,
     BRAKED,
     BROKEN,
     DRIVEN_WORK,
@@ -37,9 +38,9 @@ class Ledger(NamedTuple):
 
     Attributes
     ----------
-    walls, driven, applied, body : float
+    walls, driven, applied, body, box : float
         Work done on the scene by moving walls, by what drives prescribed particles, by constant forces and torques on
-        particles, and by gravity and other body forces.
+        particles, by gravity and other body forces, and by a periodic box that is stretched.
     start : float
         Kinetic and elastic energy at the start.
     woken : float
@@ -65,6 +66,7 @@ class Ledger(NamedTuple):
     driven: float
     applied: float
     body: float
+    box: float
     start: float
     woken: float
     kinetic: float
@@ -84,7 +86,7 @@ class Ledger(NamedTuple):
     @property
     def work(self) -> float:
         """Work done on the scene from outside."""
-        return self.walls + self.driven + self.applied + self.body
+        return self.walls + self.driven + self.applied + self.body + self.box
 
     @property
     def given(self) -> float:
@@ -110,7 +112,8 @@ class Ledger(NamedTuple):
     @property
     def turnover(self) -> float:
         """What the error is measured by: the energy at the start and all that came in, whatever its sign."""
-        return self.start + self.woken + abs(self.walls) + abs(self.driven) + abs(self.applied) + abs(self.body)
+        came = abs(self.walls) + abs(self.driven) + abs(self.applied) + abs(self.body) + abs(self.box)
+        return self.start + self.woken + came
 
     @property
     def closure(self) -> float:
@@ -124,17 +127,18 @@ def read_ledger(world: World, energies: NDArray[np.float64]) -> Ledger:
     Parameters
     ----------
     world : World
-    energies : (9,) float64
+    energies : (10,) float64
         What the kernel's ``energies`` tells: what is stored, and what was lost and done since the last booking.
     """
     kinetic, contact_elastic, bond_elastic = energies[:3].tolist()
     booked = world.ledger.sum(axis=0)
-    booked[[VISCOUS, SLIDING, ROLLING, STIFFENING, PLASTIC, WALL_WORK]] += energies[3:]
+    booked[[VISCOUS, SLIDING, ROLLING, STIFFENING, PLASTIC, WALL_WORK, BOX_WORK]] += energies[3:]
     return Ledger(
         walls=float(booked[WALL_WORK]),
         driven=float(booked[DRIVEN_WORK]),
         applied=float(booked[APPLIED_WORK]),
         body=float(booked[BODY_WORK]),
+        box=float(booked[BOX_WORK]),
         start=float(booked[START]),
         woken=float(booked[WOKEN]),
         kinetic=kinetic,

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from clast.engine.cache_lines import on_lines
 from clast.engine.chunks import shared_out
-from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, V, X
+from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, SPAN, SPAN_AT_SEARCH, V, X
 from clast.engine.near_pairs import near_pairs
 from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import slot_view
+from clast.errors import RunError
 from clast.maths.box import Box
 from clast.parts.neighbour_search import NeighbourSearch
-from clast.scene.plan import largest_reach
-from clast.scene.repeats import LEAST_SKIN, most_skin
+from clast.scene.repeats import LEAST_SKIN
 from clast.scene.scene import Scene
 
 NearWalls = Callable[..., None]
@@ -42,19 +42,29 @@ def choose_skin(scene: Scene) -> Skin:
     if not isinstance(skin, str):
         return Skin(0.5 * skin, 0.5 * skin, 0.0)
     smallest = float(scene.radius.min())
-    most = most_skin(scene.box, scene.radius, largest_reach(scene))
-    return Skin(LEAST_SKIN * smallest, min(2.0 * smallest, most), 400.0)
+    return Skin(LEAST_SKIN * smallest, 2.0 * smallest, 400.0)
 
 
-def choose_slack(particles: Particles, skin: Skin, dt: float) -> Floats:
+def choose_slack(particles: Particles, skin: Skin, dt: float, room: float) -> Floats:
     """Return how far each particle may move before lists go stale, (n,) in m.
 
     A particle gets the way it makes in ``skin.steps`` steps, within the skin's bounds: the few fast fragments of a
-    burst grain do not force a search every other step, and the many slow ones have short lists.
+    burst grain do not force a search every other step, and the many slow ones have short lists. ``room`` in m is what a
+    periodic box allows.
+
+    Raises
+    ------
+    RunError
+        If that is less than the skin's least.
     """
+    if room < skin.least:
+        raise RunError(
+            "a side of the periodic box has become so short that particles would meet each other in two images; end "
+            "the run earlier, or begin with a larger box"
+        )
     v = particles.twist[:, V : V + 3]
     way = skin.steps * dt * np.sqrt(np.einsum("ij,ij->i", v, v))
-    return np.asarray(np.clip(way, skin.least, skin.most))
+    return np.asarray(np.clip(way, skin.least, min(skin.most, room)))
 
 
 def find_pairs(
@@ -159,4 +169,5 @@ def remember_positions(particles: Particles, walls: Walls, slack: Floats) -> Non
     """Note where everything is and may go, so that the loop can tell when the lists go stale."""
     particles.reference[:, :3] = particles.pose[:, X : X + 3]
     particles.reference[:, 3] = slack * slack
+    particles.box[SPAN_AT_SEARCH] = particles.box[SPAN]
     walls.reference[:] = walls.displacement

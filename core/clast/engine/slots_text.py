@@ -69,6 +69,7 @@ def _flags(plan: Blueprint) -> str:
     values = {
         "CHUNKED": plan.chunked,
         "PERIODIC": plan.periodic,
+        "STRETCHES": plan.stretches,
         "BONDS": bonds is not None,
         "BOND_ORIENTATION": plan.orientation,
         "BOND_VELOCITY": plan.bond_velocity,

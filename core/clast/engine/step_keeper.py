@@ -22,7 +22,7 @@ from clast.engine.springs import (
     wall_springs,
 )
 from clast.engine.state import World
-from clast.engine.tables import intact
+from clast.engine.tables import box_now, intact
 from clast.engine.vibration import largest_eigenvalue
 from clast.errors import RunError
 from clast.scene.scene import Scene
@@ -141,7 +141,7 @@ class StepKeeper:
             column.copy() for column in (pose[:, RADIUS], body[:, INVERSE_MASS], body[:, INVERSE_INERTIA])
         )
         position = np.ascontiguousarray(pose[:, X : X + 3])
-        return Bodies(position, radius, per_mass, per_inertia, self.scene.box)
+        return Bodies(position, radius, per_mass, per_inertia, box_now(self.scene.box, world.particles))
 
     def bonds(self, world: World) -> Springs:
         """Return the springs of the bonds that hold."""

@@ -10,14 +10,23 @@ from numpy.typing import NDArray
 from clast.engine.blueprint import BondPlan
 from clast.engine.chunks import shared_out
 from clast.engine.kernels.layout import (
+    BOX_ROWS,
+    ENGINEERING,
     FIRST,
+    GROWTH,
     INDEX,
     INTACT,
     INVERSE_INERTIA,
     INVERSE_MASS,
     LANES,
+    LOGARITHMIC,
     MATERIAL,
+    MIDDLE,
+    PER_SPAN,
     RADIUS,
+    SPAN,
+    SPAN_AT_SEARCH,
+    SPAN_AT_START,
     WEIGHT,
     F,
     M,
@@ -42,13 +51,13 @@ def particle_tables(
     prescribed: NDArray[np.bool_],
     weight: Floats,
     applied: Floats,
-    box: Box,
+    box: Floats,
 ) -> Particles:
     """Return the tables of n particles: (n, 3) positions, velocities and spins, (n,) all else, SI.
 
     ``weight`` is the share of its mass that body forces act on: less than 1 for a particle that was made heavier.
     ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows; ``box``
-    tells in which directions they repeat themselves.
+    is that of :func:`box_table`.
     Prescribed particles get no inverse mass and inertia, so nothing changes their velocity and spin.
     """
     n = len(position)
@@ -73,8 +82,23 @@ def particle_tables(
         reference=np.zeros((n, 4)),
         applied=_load_rows(applied),
         present=np.ones(n, np.uint8),
-        box=np.array([box.span, box.per_span]),
+        box=box,
     )
+
+
+def box_table(box: Box, rates: Floats, logarithmic: bool) -> Floats:
+    """Return the rows (BOX_ROWS, 3) of a box that is stretched at rates (3,) in 1/s of the one strain or the other."""
+    table = np.zeros((BOX_ROWS, 3))
+    table[[SPAN, SPAN_AT_START, SPAN_AT_SEARCH]], table[PER_SPAN] = box.span, box.per_span
+    table[LOGARITHMIC if logarithmic else ENGINEERING] = rates
+    table[GROWTH] = box.span * rates
+    table[MIDDLE] = box.middle
+    return table
+
+
+def box_now(start: Box, particles: Particles) -> Box:
+    """Return the box in which particles repeat themselves as it is now, from that at the start."""
+    return start.grown(particles.box[SPAN])
 
 
 def _load_rows(loads: Floats) -> Floats:

@@ -52,6 +52,11 @@ class Box(NamedTuple):
         return np.where(self.periodic, 1.0 / np.where(self.periodic, self.upper - self.lower, 1.0), 0.0)
 
     @property
+    def middle(self) -> Floats:
+        """Middle of the sides, (3,) in m; 0 in directions that are not periodic."""
+        return np.where(self.periodic, 0.5 * self.lower + 0.5 * self.upper, 0.0)
+
+    @property
     def volume(self) -> float:
         """Volume in m³."""
         return float(np.prod(self.upper - self.lower))
@@ -59,6 +64,14 @@ class Box(NamedTuple):
     def per(self, length: float) -> Box:
         """Return the box in another unit of length."""
         return Box(self.lower / length, self.upper / length, self.periodic)
+
+    def grown(self, span: Floats) -> Box:
+        """Return the box with other distances from image to image, (3,) in m, about the same middle.
+
+        The bounds stay to the bit where the distances do.
+        """
+        more = np.where(self.periodic, 0.5 * (span - self.span), 0.0)
+        return Box(self.lower - more, self.upper + more, self.periodic)
 
     def nearest(self, way: Floats) -> Floats:
         """Return ways from one particle to another, (..., 3) in m, as they are to the nearest image of the other."""

@@ -17,7 +17,7 @@ from clast.plugins.nearest import suggestion
 from clast.scene.bonding import bond_neighbours, doubled
 from clast.scene.foretold import foretold, site
 from clast.scene.scatter import draw_factors, scatter_entries
-from clast.scene.scene import Origin, Scene, box_of
+from clast.scene.scene import Origin, Scene, box_of, strain_rates
 
 EXTREME = 1e-100
 """Smallest mass in kg and inertia in kg m² that is computed with; the largest are its inverse."""
@@ -97,20 +97,20 @@ def join(config: SceneConfig, made: Sequence[tuple[Chosen, Packing]]) -> Scene:
     radius = np.concatenate([packing.radius for packing in packings])
     density = np.array([each.density for each in config.materials.values()])[material]
     position = np.concatenate([packing.position for packing in packings])
-    grain = _joined_grains(packings)
+    grain, prescribed = _joined_grains(packings), np.concatenate([packing.prescribed for packing in packings])
     bonds = _bonds(config, packings, position, radius, material, grain)
     with np.errstate(over="ignore", under="ignore"):
         mass = density * config.time.mass_scaling * 4.0 / 3.0 * np.pi * radius**3
     scene = Scene(
         config=config,
         position=position,
-        velocity=np.concatenate([packing.velocity for packing in packings]),
+        velocity=_velocities(config, packings, position, prescribed),
         spin=np.concatenate([packing.spin for packing in packings]),
         radius=radius,
         mass=mass,
         material=material,
         grain=grain,
-        prescribed=np.concatenate([packing.prescribed for packing in packings]),
+        prescribed=prescribed,
         force=np.concatenate([_vectors(packing.force, packing) for packing in packings]),
         torque=np.concatenate([_vectors(packing.torque, packing) for packing in packings]),
         ends=np.sort(bonds.ends, axis=1),
@@ -223,6 +223,17 @@ def _near_bonds(
     if taken:
         wanted &= np.array([tuple(sorted(pair)) not in taken for pair in near.ends.tolist()], bool)
     return BondList(near.ends[wanted], near.diameter[wanted], near.length[wanted])
+
+
+def _velocities(
+    config: SceneConfig, packings: list[Packing], position: Floats, prescribed: NDArray[np.bool_]
+) -> Floats:
+    """Return the start velocities, (n, 3); in a box that is stretched particles that are free go with it."""
+    velocity = np.concatenate([packing.velocity for packing in packings])
+    rates = strain_rates(config)
+    if rates.any():
+        velocity[~prescribed] += (rates * (position - box_of(config).middle))[~prescribed]
+    return velocity
 
 
 def _lengths(bonds: BondList, position: Floats, box: Box) -> Floats:

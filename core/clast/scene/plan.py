@@ -17,7 +17,7 @@ from clast.engine.state import Floats
 from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
 from clast.scene.scatter import DASHPOTS, STIFFNESS, Form, form_of_constants, of_each_bond, scatter_entries
-from clast.scene.scene import Scene
+from clast.scene.scene import Scene, strain_rates
 
 
 def blueprint(scene: Scene) -> Blueprint:
@@ -41,6 +41,7 @@ def blueprint(scene: Scene) -> Blueprint:
         ledger=config.output.ledger,
         chunked=len(cut(len(scene.radius), scene.ends)) > 2,
         periodic=scene.box.repeats,
+        stretches=bool(strain_rates(config).any()),
         damping=config.damping.part if config.damping is not None else None,
         step_share=step_share(scene),
         curved_walls=not all(wall.flat for wall in config.walls.values()),

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
+from clast.engine.kernels.layout import MOST_SHRUNK
 from clast.errors import ConfigError
 from clast.maths.box import Box
 from clast.scene.plan import largest_reach
-from clast.scene.scene import Scene
+from clast.scene.scene import Scene, strain_rates
 
 Floats = NDArray[np.float64]
 LEAST_SKIN = 0.1
@@ -27,22 +28,34 @@ ALIKE = 1e-9
 """Difference of two distances or accelerations that rounding may make, as a share."""
 
 
-def most_skin(box: Box, radius: Floats, reach: float) -> float:
+def most_skin(scene: Scene, box: Box | None = None) -> float:
     """Return how far each particle may go between two searches, in m, so that two are near in one image only.
 
-    Both images of a particle are then farther apart than twice what two particles reach: 4 (r + skin) + 2 reach ≤ side.
+    Both images of a particle are then farther apart than twice what two particles reach: 4 (r + skin) + 2 reach ≤ side,
+    and by a margin more where the box shrinks.
 
     Parameters
     ----------
-    box : Box
-    radius : (n,) float64
-        In m.
-    reach : float
-        How far beyond touch contacts can hold, in m.
+    scene : Scene
+    box : Box, optional
+        As it is now; by default that of the start.
     """
+    box = box or scene.box
     if not box.repeats:
         return np.inf
-    return float(0.25 * box.span[box.periodic].min() - radius.max() - 0.5 * reach)
+    side = float(box.span[box.periodic].min()) / (1.0 + shrinkage(scene))
+    return 0.25 * side - float(scene.radius.max()) - 0.5 * largest_reach(scene)
+
+
+def shrinkage(scene: Scene) -> float:
+    """Return the share by which a box may shrink between two searches; 0 where it does not."""
+    return MOST_SHRUNK if (strain_rates(scene.config) < 0.0).any() else 0.0
+
+
+def search_slack(scene: Scene, slack: Floats) -> Floats:
+    """Return the slack with which neighbours are searched, (n,) in m: the box may shrink until the next search, too."""
+    share = shrinkage(scene)
+    return slack if share == 0.0 else slack + share * (scene.radius + slack)
 
 
 def check_repeats(scene: Scene) -> None:
@@ -51,13 +64,15 @@ def check_repeats(scene: Scene) -> None:
     Raises
     ------
     ConfigError
-        If a periodic side is too short for its particles or bonds, or walls or body forces differ from image to image.
+        If a periodic side is too short for its particles or bonds, walls or body forces differ from image to image, or
+        something would not go with a box that is stretched.
     """
     if scene.box.repeats:
         _refuse_short_sides(scene)
         _refuse_long_bonds(scene)
         _refuse_uneven_walls(scene)
         _refuse_uneven_forces(scene)
+        _refuse_what_stays_behind(scene)
 
 
 def _refuse_short_sides(scene: Scene) -> None:
@@ -65,7 +80,7 @@ def _refuse_short_sides(scene: Scene) -> None:
         return
     skin, smallest = scene.config.neighbours.skin, float(scene.radius.min())
     least = LEAST_SKIN * smallest if isinstance(skin, str) else 0.5 * skin
-    lacking = least - most_skin(scene.box, scene.radius, largest_reach(scene))
+    lacking = (least - most_skin(scene)) * (1.0 + shrinkage(scene))
     if lacking > 0.0:
         span = scene.box.span
         axis = int(np.argmin(np.where(scene.box.periodic, span, np.inf)))
@@ -130,6 +145,21 @@ def _refuse_uneven_forces(scene: Scene) -> None:
                     f"{chosen.name!r} is not the same in every image, and the domain is periodic along {'xyz'[axis]}; "
                     "remove it, or the direction from boundaries.domain.periodic",
                 )
+
+
+def _refuse_what_stays_behind(scene: Scene) -> None:
+    """Refuse walls and damping in a box that is stretched: they do not move with its images."""
+    if not strain_rates(scene.config).any():
+        return
+    for name in scene.config.walls:
+        text = "walls are not stretched with the domain; remove them, or boundaries.domain.strain_rate"
+        raise scene.config.problem(("walls", name), text)
+    if scene.config.damping is not None:
+        raise scene.config.problem(
+            ("damping",),
+            "it brakes velocities, which differ from image to image where boundaries.domain.strain_rate stretches the "
+            "domain; take bonds.damping and restitution instead",
+        )
 
 
 def _problem(config: SceneConfig, text: str) -> ConfigError:

@@ -123,3 +123,16 @@ def box_of(config: SceneConfig) -> Box:
         return open_space()
     periodic = np.array([axis in domain.periodic for axis in "xyz"])
     return Box(np.array(domain.lower), np.array(domain.upper), periodic)
+
+
+def strain_rates(config: SceneConfig) -> Floats:
+    """Return the rates at which the box of a scene is stretched, (3,) in 1/s."""
+    domain = config.boundaries.domain
+    rates = None if domain is None else domain.strain_rate
+    return np.zeros(3) if rates is None else np.array(rates)
+
+
+def is_logarithmic(config: SceneConfig) -> bool:
+    """Tell whether the rates at which a box is stretched are those of the logarithmic strain."""
+    domain = config.boundaries.domain
+    return domain is not None and domain.strain_measure == "logarithmic"

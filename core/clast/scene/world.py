@@ -20,6 +20,7 @@ from clast.engine.records import fields, leaves, numbers
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
 from clast.engine.tables import (
     bond_table,
+    box_table,
     crack_table,
     empty_pairs,
     empty_wall_pairs,
@@ -27,7 +28,7 @@ from clast.engine.tables import (
     particle_tables,
 )
 from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs
-from clast.scene.scene import Scene
+from clast.scene.scene import Scene, is_logarithmic, strain_rates
 from clast.scene.wall_rows import padded, wall_rows
 
 SUMMED = ("force", "moment", "force_sum", "moment_sum")
@@ -48,7 +49,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
         scene.prescribed,
         weights(scene),
         applied_loads(scene),
-        scene.box,
+        box_table(scene.box, strain_rates(scene.config), is_logarithmic(scene.config)),
     )
     return World(
         particles=on_lines(particles),

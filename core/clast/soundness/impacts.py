@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
+from clast.engine.images import velocities_between
 from clast.engine.impact import impact_duration
-from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V
+from clast.engine.kernels.layout import GROWTH, INVERSE_MASS, MATERIAL, RADIUS, V
 from clast.engine.state import Floats, World
 from clast.scene.scene import Scene
 from clast.soundness.near import Energies, Nearness
@@ -51,6 +52,7 @@ class ImpactsAhead:
         if not self.energies.constants:
             return None
         closing = 2.0 * fastest(world.particles.twist[:, V : V + 3]) + fastest(world.walls.velocity)
+        closing += fastest(world.particles.box[[GROWTH]])
         if closing <= self.harmless:
             return None
         if all(self.steps(each, dt) >= LEAST_STEPS for each in self._shortest(1.25 * closing)):
@@ -93,7 +95,7 @@ class ImpactsAhead:
         particles, body = world.particles, world.particles.body
         radius, v = particles.pose[:, RADIUS], particles.twist[:, V : V + 3]
         i, j, normal, overlap = near.pairs
-        closing = np.einsum("kc,kc->k", v[i] - v[j], normal)
+        closing = -np.einsum("kc,kc->k", velocities_between(particles, i, j), normal)
         ahead = np.nonzero((overlap < 0.0) & (closing > 0.0))[0]
         if len(ahead):
             i, j, closing = i[ahead], j[ahead], closing[ahead]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.kernels.layout import INTACT, RADIUS, V, W, X
+from clast.engine.kernels.layout import INTACT, PER_SPAN, RADIUS, V, W, X
 from clast.engine.state import World
 from clast.engine.tables import slot_view
 from clast.scene.scene import Scene
@@ -54,8 +54,8 @@ def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | No
 
 def round_the_other_way(world: World) -> str | None:
     """Return which bond spans so much of a periodic side that its ends are hardly nearer this way than the other."""
-    bonds, (span, per_span) = world.bonds, world.particles.box
-    if not span.any() or not len(bonds.first):
+    bonds, per_span = world.bonds, world.particles.box[PER_SPAN]
+    if not per_span.any() or not len(bonds.first):
         return None
     place = world.particles.pose[:, X : X + 3]
     away = (place[bonds.second] - place[bonds.first]) * per_span

@@ -7,8 +7,9 @@ from clast.engine.state import Floats, Particles
 from clast.maths.vec3 import across, add, along, cross, dot, norm, scale, sub
 from clast.parts.bond_kinematics import EndLoads
 
+from .images import velocity_between
 from .lanes import put, row, vector
-from .layout import BOND_D, DRAG_F, DRAG_M, RATE_V, RATE_WI, RATE_WJ, V, W
+from .layout import BOND_D, DRAG_F, DRAG_M, RATE_V, RATE_WI, RATE_WJ, W
 from .slots import BOND_BOOKS, BOND_DRAG, read_damping
 
 
@@ -44,7 +45,7 @@ def dashpot_heat(
     """
     twist = particles.twist
     w_i, w_j = row(twist, i, W), row(twist, j, W)
-    moved = scale(dt, sub(row(twist, j, V), row(twist, i, V)))
+    moved = scale(dt, velocity_between(particles, twist, i, j))
     middle = sub(vector(scratch, BOND_D, lane), scale(0.5, moved))
     slip = sub(moved, cross(scale(0.5 * dt, add(w_i, w_j)), middle))
     turn = scale(dt, sub(w_j, w_i))

@@ -10,9 +10,9 @@ from clast.parts.bond_kinematics import BondMotion
 from clast.parts.bond_model import RandomKey, Strain
 
 from .bond_lane import bond_lane, read_motion
-from .images import way_between
+from .images import velocity_between, way_between
 from .lanes import row
-from .layout import Q, V, W, X
+from .layout import Q, W, X
 from .slots import (
     BOND_LIMIT,
     BOND_ORIENTATION,
@@ -44,7 +44,7 @@ def strain_before(particles: Particles, i: int, j: int, data: Floats, lane: int,
     if BOND_ORIENTATION:
         q_i = turn(quaternion(pose, i), row(twist, i, W), -time)
         q_j = turn(quaternion(pose, j), row(twist, j, W), -time)
-    d, v = way_between(particles, i, j), sub(row(twist, j, V), row(twist, i, V))
+    d, v = way_between(particles, i, j), velocity_between(particles, twist, i, j)
     motion = BondMotion(sub(d, scale(time, v)), q_i, q_j, v, row(twist, i, W), row(twist, j, W))
     strain: Strain = bond_measure(motion, read_reference(data, lane), read_kinematic_state(data, lane), -time)[0]
     return strain

@@ -10,7 +10,7 @@ from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad
 
 from .bond_dashpots import damped
-from .images import nearest
+from .images import image_velocity, nearest
 from .lanes import put, vector
 from .layout import (
     BOND_D,
@@ -47,6 +47,7 @@ from .slots import (
     FADE,
     LEDGER,
     PERIODIC,
+    STRETCHES,
     bond_beyond,
     bond_end_loads,
     bond_energy,
@@ -86,6 +87,19 @@ def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> 
             scratch[(RATE_V + c) * LANES + lane] = seen[j, V + c] - seen[i, V + c]
             scratch[(RATE_WI + c) * LANES + lane] = seen[i, W + c]
             scratch[(RATE_WJ + c) * LANES + lane] = seen[j, W + c]
+    if STRETCHES:
+        see_image_move(particles, i, j, scratch, lane)
+
+
+@inlined
+def see_image_move(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> None:
+    """Add to the velocities in a lane that of the image that the second end is, in a box that is stretched."""
+    away = image_velocity(particles, i, j)
+    for c in range(3):
+        if BOND_VELOCITY:
+            scratch[(BOND_V + c) * LANES + lane] += away[c]
+        if BOND_DAMPING:
+            scratch[(RATE_V + c) * LANES + lane] += away[c]
 
 
 @inlined

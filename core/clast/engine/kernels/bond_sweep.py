@@ -4,14 +4,30 @@ from __future__ import annotations
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Bonds, Cracks, Floats, Numbers, Particles
+from clast.maths.vec3 import dot
 from clast.parts.bond_model import RandomKey
 
 from .ahead import LINE, ask_for
 from .bond_dashpots import dashpot_heat
 from .bond_events import let_go, log_crack, settle_events
 from .bond_lane import bond_lane, gather, scatter
-from .layout import BOND_VISCOUS, BROKEN, DROPS, FIRST, FLOWED, INDEX, INTACT, LANES, OVERLOAD, PLASTIC
-from .slots import BOND_BOOKS, BOND_EVENTS, BOND_FLOW, CHUNKED, LEDGER, read_uniforms
+from .images import image_velocity
+from .lanes import vector
+from .layout import (
+    BOND_F,
+    BOND_VISCOUS,
+    BOX_POWER,
+    BROKEN,
+    DROPS,
+    FIRST,
+    FLOWED,
+    INDEX,
+    INTACT,
+    LANES,
+    OVERLOAD,
+    PLASTIC,
+)
+from .slots import BOND_BOOKS, BOND_EVENTS, BOND_FLOW, CHUNKED, LEDGER, STRETCHES, read_uniforms
 
 
 @inlined
@@ -74,3 +90,6 @@ def sweep_bonds(
                 book[BOND_VISCOUS] += heat if own else 0.0
             if share > 0.0:
                 scatter(particles, i, j, sides[lane], scratch, lane, share)
+                if STRETCHES and own:
+                    force = vector(scratch, BOND_F, lane)
+                    book[BOX_POWER] -= share * dot(force, image_velocity(particles, i, j))

@@ -10,8 +10,10 @@ from clast.engine.state import Floats, Numbers, Pairs, Particles
 from clast.maths.vec3 import ZERO, add, cross, dot, scale, sub
 from clast.parts.contact_law import Drag, Touch
 
+from .images import image_velocity
 from .lanes import put, row, vector
 from .layout import (
+    BOX_POWER,
     CONTACT_F,
     CONTACT_FREE,
     CONTACT_MI,
@@ -58,6 +60,7 @@ from .slots import (
     RESTS,
     ROLLS,
     SPIN,
+    STRETCHES,
     TURNS,
     VELOCITY_FORCES,
     YIELDS,
@@ -111,6 +114,13 @@ def gather(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch
         for c in range(3):
             scratch[(DRIFT + c) * LANES + lane] = twist[j, V + c] - twist[i, V + c]
             scratch[(TURNING + c) * LANES + lane] = r_i * twist[i, W + c] + r_j * twist[j, W + c]
+    if STRETCHES:
+        away = image_velocity(particles, i, j)
+        for c in range(3):
+            if VELOCITY_FORCES:
+                scratch[(DV + c) * LANES + lane] += away[c]
+            if REMEMBERS:
+                scratch[(DRIFT + c) * LANES + lane] += away[c]
     if HISTORY > 0:
         for c in range(3):
             scratch[(NORMAL + c) * LANES + lane] = pairs.history[k, c]
@@ -227,6 +237,8 @@ def scatter(particles: Particles, pairs: Pairs, k: int, scratch: Floats, lane: i
     own_i, own_j = own_ends(sides)
     take_from_row(load, i, F, force, own_i)
     add_to_row(load, j, F, force, own_j)
+    if STRETCHES and sides & FIRST:
+        book[BOX_POWER] -= dot(force, image_velocity(particles, i, j))
     if SPIN:
         add_to_row(load, i, M, vector(scratch, CONTACT_MI, lane), own_i)
         add_to_row(load, j, M, vector(scratch, CONTACT_MJ, lane), own_j)

@@ -11,7 +11,7 @@ from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
 from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
-from .images import nearest, way_between
+from .images import nearest, velocity_between, way_between
 from .lanes import put, row, vector
 from .layout import (
     FIRST,
@@ -26,7 +26,6 @@ from .layout import (
     VISCOUS,
     WOKEN,
     D,
-    V,
     W,
     X,
 )
@@ -87,7 +86,7 @@ def book_parting(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, d
     """Book what the drag of the last evaluation still takes up while pair k comes apart, and what its springs held."""
     twist, i, j = particles.twist, pairs.first[k], pairs.second[k]
     last = kept_drag(pairs.history, k)
-    book[VISCOUS] += 0.5 * dt * dot(last.force, sub(row(twist, j, V), row(twist, i, V)))
+    book[VISCOUS] += 0.5 * dt * dot(last.force, velocity_between(particles, twist, i, j))
     if ROLLS:
         book[ROLLING] += 0.5 * dt * dot(last.torque, sub(row(twist, j, W), row(twist, i, W)))
     if REACHES:
@@ -106,7 +105,7 @@ def pull_off_loss(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, 
     d = way_between(particles, i, j)
     distance = sqrt(dot(d, d))
     n = scale(1.0 / distance, d)
-    opened = dt * dot(sub(row(particles.twist, j, V), row(particles.twist, i, V)), n)
+    opened = dt * dot(velocity_between(particles, particles.twist, i, j), n)
     then = still(r_i, r_j, r_i + r_j - distance - pairs.rest[k] + opened, n)
     return energy_let_go(then, opened, pair_constants(particles, pairs, k, numbers), pairs.history, k, dt)
 
@@ -134,8 +133,8 @@ def waking_energy(
 
     The bond broke, on average, half-way between the last two force evaluations: what counts is the overlap there.
     """
-    now, twist = vector(scratch, D, lane), particles.twist
-    back = scale(0.5 * dt, sub(row(twist, pairs.second[k], V), row(twist, pairs.first[k], V)))
+    now = vector(scratch, D, lane)
+    back = scale(0.5 * dt, velocity_between(particles, particles.twist, pairs.first[k], pairs.second[k]))
     gather(particles, pairs, k, numbers, scratch, lane)
     put(scratch, D, lane, sub(now, back))
     touch, _, _, _ = read_touch(scratch, lane, numbers, 0.0)

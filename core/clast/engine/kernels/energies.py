@@ -15,9 +15,11 @@ from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
 from .contact_lane import HISTORY_BASE, gather, kept_drag, read_drag, read_touch
 from .contact_sweep import joined, meet
+from .going_back import go_back
 from .lanes import row, vector
 from .layout import (
     BOND_SCRATCH,
+    BOX_POWER,
     CONTACT_F,
     CONTACT_FREE,
     ENERGY,
@@ -37,7 +39,7 @@ from .layout import (
     V,
     W,
 )
-from .motion import drift, half_kick, turn_all
+from .motion import half_kick
 from .slots import (
     BONDED_PAIRS_TOUCH,
     BONDS,
@@ -47,8 +49,8 @@ from .slots import (
     HISTORY,
     LAG,
     ONE_MATERIAL,
-    ORIENTATION,
     STAGES,
+    STRETCHES,
     WALLS,
     YIELDS,
     bond_energy,
@@ -79,8 +81,9 @@ SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 CONTACT_ENERGY = CONTACT_F
 """Slot of the energy of a lane's contact, where its force is not computed."""
 
-LATEST, YIELDED, WALLS_DID = 3, 4, 5
-"""Where losses since the last force evaluation begin among the energies; there, the places of yielding and of walls."""
+LATEST, YIELDED, WALLS_DID, BOX_DID = 3, 4, 5, 6
+"""Where losses since the last force evaluation begin among the energies; there, the places of yielding, of walls and of
+a box that is stretched."""
 
 
 @compiled
@@ -88,42 +91,32 @@ def energies(world: World, moving: bool, found: Floats) -> None:
     """Add the energies in J to ``found``: kinetic, of contacts, of bonds; at the time that velocities belong to.
 
     What contacts dissipate and walls do since the last force evaluation, after which nothing is booked, follows: the
-    losses of dashpots, sliding, rolling, stiffening and yielding, the work of walls.
+    losses of dashpots, sliding, rolling, stiffening and yielding, the work of walls and of a box that is stretched.
 
     Parameters
     ----------
     world : World
     moving : bool
         Whether a step was taken; else nothing has moved since the forces.
-    found : (9,) float64
+    found : (10,) float64
         Zeros.
     """
     back = -LAG * world.numbers.dt
     time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
     scratch = np.empty(max(BOND_SCRATCH, HISTORY_BASE + HISTORY + 1) * LANES)
-    poses, displacements = world.particles.pose.copy(), world.walls.displacement.copy()
+    poses, displacements, box = world.particles.pose.copy(), world.walls.displacement.copy(), world.particles.box.copy()
     if LAG != 0.0:
         go_back(world, scratch, back)
     found[0] = kinetic_energy(world.particles, world.numbers.dt)
     found[1], found[2] = elastic_energies(world, scratch, time, found[LATEST:])
     for w in range(len(world.walls.shape_kind)):
         found[LATEST + WALLS_DID] -= time * dot(row(world.walls.force, w, 0), row(world.walls.velocity, w, 0))
+    if STRETCHES:
+        found[LATEST + BOX_DID] += time * world.ledger[:, BOX_POWER].sum()
     if LAG != 0.0:
         world.particles.pose[:] = poses
+        world.particles.box[:] = box
         world.walls.displacement[:] = displacements
-
-
-@inlined
-def go_back(world: World, scratch: Floats, time: float) -> None:
-    """Move everything to where it was some time ago, no longer than velocities have been what they are."""
-    particles, walls = world.particles, world.walls
-    for k in range(len(particles.pose)):
-        drift(particles, k, -time)
-    if ORIENTATION:
-        turn_all(particles, 0, len(particles.pose), scratch, -time)
-    for w in range(len(walls.shape_kind)):
-        for c in range(3):
-            walls.displacement[w, c] -= time * walls.velocity[w, c]
 
 
 @inlined

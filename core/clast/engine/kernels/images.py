@@ -10,11 +10,11 @@ import numpy as np
 
 from clast.engine.compiler import inlined
 from clast.engine.state import Floats, Particles
-from clast.maths.vec3 import Vec, sub
+from clast.maths.vec3 import Vec, add, sub
 
 from .lanes import row
-from .layout import PER_SPAN, SPAN, X
-from .slots import PERIODIC
+from .layout import GROWTH, PER_SPAN, SPAN, V, X
+from .slots import PERIODIC, STRETCHES
 
 
 @inlined
@@ -37,3 +37,23 @@ def way_between(particles: Particles, i: int, j: int) -> Vec:
     if PERIODIC:
         d = nearest(particles.box, d)
     return d
+
+
+@inlined
+def image_velocity(particles: Particles, i: int, j: int) -> Vec:
+    """Return how fast the image of particle j that is nearest to i flees from j itself, as the box is stretched."""
+    d, box = sub(row(particles.pose, j, X), row(particles.pose, i, X)), particles.box
+    return (
+        -box[GROWTH, 0] * np.rint(d[0] * box[PER_SPAN, 0]),
+        -box[GROWTH, 1] * np.rint(d[1] * box[PER_SPAN, 1]),
+        -box[GROWTH, 2] * np.rint(d[2] * box[PER_SPAN, 2]),
+    )
+
+
+@inlined
+def velocity_between(particles: Particles, velocities: Floats, i: int, j: int) -> Vec:
+    """Return the velocity of particle j, or of its nearest image, against particle i, in m/s."""
+    v = sub(row(velocities, j, V), row(velocities, i, V))
+    if STRETCHES:
+        v = add(v, image_velocity(particles, i, j))
+    return v

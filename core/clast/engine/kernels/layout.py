@@ -12,8 +12,11 @@ F, M = 0, 4  # load and acceleration: force, 0, moment, 0; acceleration and angu
 INVERSE_MASS, INVERSE_INERTIA, MATERIAL, WEIGHT = 0, 1, 2, 3  # body: 1/m, 1/I, material, share that has weight
 
 # box: one row each; 0 in directions that are not periodic
-SPAN, PER_SPAN = 0, 1  # distance from an image to the next, and its inverse
-BOX_ROWS = 2
+SPAN, PER_SPAN, GROWTH = 0, 1, 2  # distance from an image to the next, its inverse, and how fast it grows
+SPAN_AT_START, LOGARITHMIC, ENGINEERING = 3, 4, 5  # from which it grows at constant rates of these strains
+SPAN_AT_SEARCH, MIDDLE = 6, 7  # distance at the last neighbour search; what stays where it is
+BOX_ROWS = 8
+MOST_SHRUNK = 0.01  # share by which lists reach farther where the box shrinks, and are made anew once it has
 
 # bond tables: the first two slots of every bond
 INDEX, INTACT = 0, 1
@@ -36,13 +39,14 @@ CONTACT_F, CONTACT_MI, CONTACT_MJ, DRIFT, TURNING, LOST, DRAG, TURNED = 20, 23, 
 HELD, CONTACT_FREE = 49, 50
 
 # energy ledger, in J: what contacts (in the order of ContactLosses) and bonds dissipate, the work done on the scene,
-# what left with particles, what was there at the start, what contacts hold that appear as bonds break, and what the
-# damping of motion took
+# what left with particles, what was there at the start, what contacts hold that appear as bonds break, what the damping
+# of motion took, and the work of a box that is stretched
 VISCOUS, SLIDING, ROLLING, STIFFENING = 0, 1, 2, 3
 BOND_VISCOUS, PLASTIC, DROPS, BROKEN = 4, 5, 6, 7
 WALL_WORK, DRIVEN_WORK, APPLIED_WORK, BODY_WORK = 8, 9, 10, 11
 LEFT, START, WOKEN, BRAKED = 12, 13, 14, 15
-TERMS = 16
+BOX_WORK, BOX_POWER = 16, 17  # work of a box that is stretched, and its power at the last evaluation of forces
+TERMS = 24  # whole cache lines: each chunk has a row, which its thread writes
 
 # scratch of turning
 TURN_Q, TURN_W = 0, 4

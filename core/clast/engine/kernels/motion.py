@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from clast.engine.compiler import inlined, routine
-from clast.engine.state import Floats, Numbers, Particles, Walls
+from clast.engine.state import Floats, Numbers, Particles
 from clast.maths.rotation import turn
 from clast.maths.vec3 import Vec, add, dot, scale
 from clast.parts.integrator import Stage
-from clast.parts.wall import Pressed
 
 from .lanes import put, row, vector
 from .layout import (
@@ -18,10 +17,10 @@ from .layout import (
     INVERSE_INERTIA,
     INVERSE_MASS,
     LANES,
+    MIDDLE,
     RADIUS,
     TURN_Q,
     TURN_W,
-    WALL_WORK,
     WEIGHT,
     F,
     M,
@@ -32,7 +31,6 @@ from .layout import (
 )
 from .rows import set_first_half, set_half_row, set_row
 from .slots import (
-    ANSWERING,
     APPLIED_LOADS,
     BODY_FORCES,
     BODY_LOADS,
@@ -40,13 +38,11 @@ from .slots import (
     ORIENTATION,
     SPIN,
     STAGES,
+    STRETCHES,
     VELOCITY_FORCES,
     body_acceleration,
     body_load,
     braking,
-    wall_answer,
-    wall_start,
-    wall_velocity,
 )
 
 
@@ -108,18 +104,25 @@ def begin_load(particles: Particles, k: int) -> None:
 
 
 @inlined
-def strayed(particles: Particles, k: int) -> bool:
-    """Tell whether particle k is too far from where neighbours were searched, or nowhere."""
+def strayed(particles: Particles, k: int, stretch: Vec) -> bool:
+    """Tell whether particle k is too far from where neighbours were searched, or nowhere.
+
+    ``stretch`` is what a box that is stretched has grown by since: places go with it, as long as nothing else moves.
+    """
     pose, reference = particles.pose, particles.reference
     dx = pose[k, X] - reference[k, 0]
     dy = pose[k, X + 1] - reference[k, 1]
     dz = pose[k, X + 2] - reference[k, 2]
+    if STRETCHES:
+        dx -= (stretch[0] - 1.0) * (reference[k, 0] - particles.box[MIDDLE, 0])
+        dy -= (stretch[1] - 1.0) * (reference[k, 1] - particles.box[MIDDLE, 1])
+        dz -= (stretch[2] - 1.0) * (reference[k, 2] - particles.box[MIDDLE, 2])
     return not dx * dx + dy * dy + dz * dz <= reference[k, 3]
 
 
 @inlined
 def move_before_forces(
-    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats
+    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats, stretch: Vec
 ) -> bool:
     """Kick and drift to the force evaluation, begin the loads; tell whether neighbour lists are stale."""
     dt = numbers.dt
@@ -132,7 +135,7 @@ def move_before_forces(
         if VELOCITY_FORCES:
             predict(particles, k, stage.predict * dt)
         begin_load(particles, k)
-        if strayed(particles, k):
+        if strayed(particles, k, stretch):
             stale = True
     if ORIENTATION and stage.drift_before != 0.0:
         turn_all(particles, begin, end, scratch, stage.drift_before * dt)
@@ -246,70 +249,3 @@ def move_after_forces(
             drift(particles, k, stage.drift_after * dt)
     if ORIENTATION and stage.drift_after != 0.0:
         turn_all(particles, begin, end, scratch, stage.drift_after * dt)
-
-
-@routine
-def start_walls(walls: Walls, time: float) -> None:
-    """Give the walls the velocities they have before any force is known."""
-    for w in range(len(walls.shape_kind)):
-        v = wall_start(walls, w, time)
-        for c in range(3):
-            walls.velocity[w, c] = v[c]
-
-
-@routine
-def steer_walls(walls: Walls, mass: float, middle: float, span: float, since: float) -> None:
-    """Give the walls the velocities that they keep for ``span`` seconds, to the next force evaluation.
-
-    ``middle`` is the time half-way, in s: there a velocity stands best for the whole span. ``mass`` in kg is that of
-    all particles, ``since`` the time since the forces before.
-    """
-    for w in range(len(walls.shape_kind)):
-        if ANSWERING:
-            pressed = Pressed(row(walls.force, w, 0), mass, row(walls.velocity, w, 0), span, since)
-            v = wall_answer(walls, w, middle, pressed)
-        else:
-            v = wall_velocity(walls, w, middle, span)
-        for c in range(3):
-            walls.velocity[w, c] = v[c]
-
-
-@routine
-def move_walls(walls: Walls, drift_time: float, reach2: float) -> bool:
-    """Move the walls over some time; tell whether one is too far from where its neighbours were searched."""
-    stale = False
-    for w in range(len(walls.shape_kind)):
-        away2 = 0.0
-        for c in range(3):
-            walls.displacement[w, c] += drift_time * walls.velocity[w, c]
-            away = walls.displacement[w, c] - walls.reference[w, c]
-            away2 += away * away
-        stale = stale or not away2 <= reach2
-    return stale
-
-
-@inlined
-def book_wall_work(walls: Walls, span: float, book: Floats) -> None:
-    """Book half of the work that walls do on the way from one force evaluation to the next, with the forces at one."""
-    for w in range(len(walls.shape_kind)):
-        book[WALL_WORK] -= 0.5 * span * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))
-
-
-@routine
-def clear_wall_forces(walls: Walls) -> None:
-    """Forget the forces and moments of the last evaluation."""
-    for w in range(len(walls.shape_kind)):
-        for c in range(3):
-            walls.force[w, c] = 0.0
-            walls.moment[w, c] = 0.0
-        walls.pressing[w] = 0.0
-
-
-@routine
-def sum_wall_forces(walls: Walls) -> None:
-    """Add the forces and moments of this step to the sums from which means are taken."""
-    for w in range(len(walls.shape_kind)):
-        for c in range(3):
-            walls.force_sum[w, c] += walls.force[w, c]
-            walls.moment_sum[w, c] += walls.moment[w, c]
-        walls.pressing_sum[w] += walls.pressing[w]

@@ -15,6 +15,7 @@ CHOICES: Any = None
 
 CHUNKED = False
 PERIODIC = False
+STRETCHES = False
 BONDS = False
 BOND_ORIENTATION = False
 BOND_VELOCITY = False

@@ -15,19 +15,14 @@ from clast.parts.integrator import Stage
 
 from .bond_sweep import sweep_bonds
 from .contact_sweep import sweep_contacts
-from .layout import DONE, LANES, MOVED, PRIMED, STAGE, STALE, STEP
-from .motion import (
-    book_wall_work,
-    clear_wall_forces,
-    move_after_forces,
-    move_before_forces,
-    move_walls,
-    start_walls,
-    steer_walls,
-    sum_wall_forces,
-)
-from .slots import BONDS, CHUNKED, CONTACTS, FORCES_AT, SPANS, STAGES, WALLS
+from .layout import BOX_POWER, BOX_WORK, DONE, LANES, MOVED, PRIMED, STAGE, STALE, STEP
+from .motion import move_after_forces, move_before_forces
+from .slots import BONDS, CHUNKED, CONTACTS, FORCES_AT, SPANS, STAGES, STRETCHES, WALLS
+from .stretching import shrunk, since_search, stretch_box
+from .wall_motion import book_wall_work, clear_wall_forces, move_walls, start_walls, steer_walls, sum_wall_forces
 from .wall_sweep import sweep_walls
+
+UNSTRETCHED = (1.0, 1.0, 1.0)
 
 
 @inlined
@@ -83,11 +78,18 @@ def count_stage(clock: Integers) -> bool:
 
 @inlined
 def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float, span: float) -> None:
-    """Move the chunks from ``begin`` to ``end``, and the walls, to where forces are evaluated."""
-    numbers, chunks = world.numbers, world.chunks
+    """Move the chunks from ``begin`` to ``end``, and the walls, to where forces are evaluated at a time."""
+    numbers, chunks, stretch = world.numbers, world.chunks, UNSTRETCHED
+    if STRETCHES:
+        stretch = since_search(world.particles.box, time)
+        if first:
+            stretch_box(world.particles.box, time)
     for c in range(begin, end):
-        moved_on = move_before_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, world.scratch[c])
+        scratch = world.scratch[c]
+        moved_on = move_before_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, stretch)
         world.stale[c] = 1 if moved_on else 0
+        if STRETCHES and shrunk(stretch):
+            world.stale[c] = 1
     if WALLS and first:
         if world.clock[PRIMED] == 0:
             start_walls(world.walls, time)
@@ -100,14 +102,19 @@ def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage
 @inlined
 def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: float, step: int) -> None:
     """Add the loads of bonds and contacts to the particles of the chunks from ``begin`` to ``end``."""
-    particles, numbers = world.particles, world.numbers
+    particles, numbers, power = world.particles, world.numbers, 0.0
     for c in range(begin, end):
+        if STRETCHES:
+            power = world.ledger[c, BOX_POWER]
+            world.ledger[c, BOX_POWER] = 0.0
         if BONDS:
             sweep_bonds(world.bonds, c, particles, world.cracks, numbers, world.scratch[c], world.ledger[c], span, step)
         if CONTACTS:
             sweep_contacts(
                 world.pairs, c, world.bonds, particles, numbers, world.scratch[c], active, world.ledger[c], span
             )
+        if STRETCHES:
+            world.ledger[c, BOX_WORK] += 0.5 * span * (power + world.ledger[c, BOX_POWER])
 
 
 @inlined
@@ -117,6 +124,9 @@ def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Sta
     for c in range(begin, end):
         scratch, book = world.scratch[c], world.ledger[c]
         move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book, span)
+    if STRETCHES and first:
+        at, _ = until_next_forces(world.clock)
+        stretch_box(world.particles.box, time + (at + stage.drift_after) * numbers.dt)
     if WALLS and first:
         at, span_on = until_next_forces(world.clock)
         if span_on > 0.0:
@@ -141,7 +151,8 @@ def advance(world: World, steps: int, team: Team) -> int:
         time = numbers.first_time + (clock[STEP] - numbers.first_step) * numbers.dt
         span = time_since_forces(clock, numbers)
         if clock[MOVED] == 0:
-            move_to_forces(world, begin, end, first, stage, time, span)
+            at, _ = until_next_forces(clock)
+            move_to_forces(world, begin, end, first, stage, time + at * numbers.dt, span)
             if CHUNKED:
                 wait(team)
             clock[MOVED] = 1

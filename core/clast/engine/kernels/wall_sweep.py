@@ -28,7 +28,6 @@ from .layout import (
     W,
     X,
 )
-from .motion import book_wall_work
 from .parting import energy_left, energy_let_go, jump_at_touch, reach_of, still
 from .slots import (
     CHOICES,
@@ -52,6 +51,7 @@ from .slots import (
     store_history,
 )
 from .touching import share_since_touch
+from .wall_motion import book_wall_work
 from .wall_places import place_on_wall
 
 
