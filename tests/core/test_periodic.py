@@ -11,7 +11,7 @@ import pytest
 from clast import open_run, run_scene
 from clast.config.scene import SceneConfig, from_mapping
 from clast.engine.kernels.layout import X
-from clast.errors import ConfigError
+from clast.errors import ConfigError, RunError
 from clast.results import checkpoint
 from clast.scene.build import build_scene
 from clast.scene.start import check_start
@@ -94,14 +94,87 @@ def test_a_resumed_run_goes_on_to_the_bit(tmp_path):
     assert whole.world.particles.pose.tobytes() == resumed.world.particles.pose.tobytes()
 
 
+PAIR = [{"position": [1e-3, 5e-3, 5e-3], "radius": 1e-3}, {"position": [9e-3, 5e-3, 5e-3], "radius": 1e-3}]
+
+PRESSED = {"domain": DOMAIN | {"strain_rate": [-2.0, 0, 1.0]}}
+"""A box that becomes shorter along x, where lists must reach farther than they are made, and longer along z."""
+
+
+def test_a_gas_that_is_compressed_takes_up_the_work_of_the_box():
+    simulation = Simulation(scene(gas(), boundaries=PRESSED))
+    simulation.advance_to(simulation.last_step)
+    ledger = simulation.ledger()
+    np.testing.assert_allclose(simulation.box.span, SIDE * np.exp([-2.0 * 0.06, 0.0, 0.06]), rtol=1e-4)
+    assert ledger.box > 0.02 * ledger.start
+    assert abs(ledger.closure) < 1e-3
+
+
+def test_it_does_not_matter_when_neighbours_were_searched():
+    often, seldom = (
+        Simulation(scene(gas(), boundaries=PRESSED, neighbours={"skin": skin})) for skin in ("4 um", "auto")
+    )
+    for each in (often, seldom):
+        each.advance_to(4000)
+    assert often.rebuilds > 10 * seldom.rebuilds
+    assert often.world.particles.pose.tobytes() == seldom.world.particles.pose.tobytes()
+
+
+def test_it_does_not_matter_where_the_faces_lie():
+    moved = {"lower": [3e-3] * 3, "upper": [13e-3] * 3}
+    middle = gas()
+    for each in middle:  # the box is stretched about its middle: keep places and velocities against it
+        each["position"] = [x + 3e-3 for x in each["position"]]
+    here, there = (
+        Simulation(scene(particles, boundaries={"domain": PRESSED["domain"] | changes}))
+        for particles, changes in ((gas(), {}), (middle, moved))
+    )
+    for each in (here, there):
+        each.advance_to(400)
+    np.testing.assert_allclose(
+        here.world.particles.twist, there.world.particles.twist, atol=1e-9 * np.abs(here.world.particles.twist).max()
+    )
+
+
+def test_a_box_that_shrinks_too_far_ends_the_run():
+    domain = DOMAIN | {"upper": [4.7e-3, SIDE, SIDE], "strain_rate": [-20.0, 0, 0]}
+    pair = [PAIR[0] | {"position": [1.2e-3, 5e-3, 5e-3]}, PAIR[0] | {"position": [3.5e-3, 5e-3, 5e-3]}]
+    simulation = Simulation(scene(pair, boundaries={"domain": domain}))
+    with pytest.raises(RunError, match="a side of the periodic box has become so short"):
+        simulation.advance_to(simulation.last_step)
+
+
+@pytest.mark.parametrize(
+    ("section", "words"),
+    [
+        (
+            {"damping": {"type": "local", "factor": 0.7}},
+            "damping: it brakes velocities, which differ from image to image",
+        ),
+        (
+            {
+                "walls": {
+                    "floor": {"type": "plane", "material": "glass", "point": [0, 0, 0], "normal": [0, 0, 1]},
+                },
+                "boundaries": {"domain": DOMAIN | {"periodic": ["x", "y"], "strain_rate": [1.0, 0, 0]}},
+            },
+            "walls.floor: walls are not stretched with the domain",
+        ),
+    ],
+)
+def test_what_does_not_go_with_a_box_that_is_stretched_is_refused(section, words):
+    assert words in refusal(scene(PAIR, **({"boundaries": PRESSED} | section)))
+
+
+def test_only_periodic_directions_can_be_stretched():
+    with pytest.raises(ConfigError, match=r"strain_rate stretches the box along z, where it is not periodic"):
+        scene(PAIR, boundaries={"domain": PRESSED["domain"] | {"periodic": ["x", "y"]}})
+
+
 def refusal(given: SceneConfig) -> str:
     """Return why a scene is refused."""
     with pytest.raises(ConfigError) as refused:
         check_start(build_scene(given))
     return str(refused.value)
-
-
-PAIR = [{"position": [1e-3, 5e-3, 5e-3], "radius": 1e-3}, {"position": [9e-3, 5e-3, 5e-3], "radius": 1e-3}]
 
 
 def test_a_side_too_short_for_its_particles_is_refused():

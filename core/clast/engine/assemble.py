@@ -42,6 +42,8 @@ class Kernel:
         See ``kernels.gaps.gaps``.
     network : (world, moving, grain, inside, output) -> int
         See ``kernels.network.network``.
+    virial : (world, moving, found) -> None
+        See ``kernels.virial.virial``.
     digest : str
         Of every source that takes part.
     fresh : bool
@@ -54,6 +56,7 @@ class Kernel:
     near_walls: Callable[..., None]
     gaps: Callable[..., None]
     network: Callable[..., int]
+    virial: Callable[..., None]
     digest: str
     fresh: bool
 
@@ -104,7 +107,7 @@ def assemble(plan: Blueprint, heard: Mapping[Callable[..., Any], Any] | None = N
     _write_package(folder, text)
     let_compiled_code_call([*plan.functions(), *helpers])
     package = _import_package(name, folder)
-    advance, observe, energies, near_walls, gaps, network = (
+    advance, observe, energies, near_walls, gaps, network, virial = (
         Entry(getattr(_submodule(package, file), function), folder / "lock", laws)
         for file, function in (
             ("step_loop", "advance"),
@@ -113,11 +116,12 @@ def assemble(plan: Blueprint, heard: Mapping[Callable[..., Any], Any] | None = N
             ("near_walls", "near_walls"),
             ("gaps", "gaps"),
             ("network", "network"),
+            ("virial", "virial"),
         )
     )
     fresh = not advance.on_disk
     found = name.removeprefix("clast_kernel_")
-    return Kernel(advance, observe, energies, near_walls, gaps, network, found, fresh)
+    return Kernel(advance, observe, energies, near_walls, gaps, network, virial, found, fresh)
 
 
 def _template_helpers() -> list[Callable[..., Any]]:

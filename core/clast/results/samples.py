@@ -9,6 +9,7 @@ from clast.engine.kernels.layout import F, M, V, W, X
 from clast.engine.ledger import Ledger
 from clast.engine.state import Floats
 from clast.results import energy
+from clast.results.cell import cell_columns
 from clast.results.stops import Stops
 from clast.results.store import Store
 from clast.simulation import Simulation
@@ -83,6 +84,7 @@ class Samples:
             row |= zip(OF_COMPRESSION, plates, strict=True)
         side = gauge.side_reading(walls, force, pressing)
         row |= side._asdict() if side is not None else {}
+        row |= cell_columns(simulation)
         row |= zip(self.wall_columns, np.concatenate((force, moment), axis=1).ravel().tolist(), strict=True)
         row |= {name: float(pressing[k]) for name, k in self.curved_columns.items()}
         row |= {name: self._stage(int(walls.stage[k, 0]), k) for name, k in self.stage_columns.items()}

@@ -9,6 +9,7 @@ import numpy as np
 from clast.engine.compiler import compiled, inlined, routine
 from clast.engine.state import Bonds, Floats, Integers, Numbers, Pairs, Particles, World
 from clast.maths.vec3 import Vec, add, dot, scale, sub
+from clast.parts.contact_law import ContactLoad, Touch
 
 from .contact_lane import HISTORY_BASE, gather, read_touch
 from .contact_sweep import joined, meet
@@ -93,9 +94,9 @@ def counts(
     return bool(meet(particles, pairs, k, numbers, scratch, 0))
 
 
-@routine
-def write_pair(world: World, k: int, scratch: Floats, time: float, found: Floats) -> None:
-    """Write the contact of pair k, which touches and lies in the first lane."""
+@inlined
+def touch_of_pair(world: World, k: int, scratch: Floats, time: float) -> tuple[Touch, ContactLoad]:
+    """Return the contact of pair k, which touches and lies in the first lane, and its load a time after the forces."""
     particles, pairs, numbers = world.particles, world.pairs, world.numbers
     i, j = pairs.first[k], pairs.second[k]
     gather(particles, pairs, k, numbers, scratch, 0)
@@ -109,8 +110,16 @@ def write_pair(world: World, k: int, scratch: Floats, time: float, found: Floats
         spin = 0.5 * (dot(touch.spin_i, touch.normal) + dot(touch.spin_j, touch.normal)) * time
         history = carry_history(history, vector(scratch, NORMAL, 0), touch.normal, spin)
     load, _ = contact_load(touch, constants, history, law_time(time, numbers.dt), CHOICES)
-    share = particles.pose[i, RADIUS] / (particles.pose[i, RADIUS] + particles.pose[j, RADIUS])
-    point = add(row(particles.pose, i, X), scale(share, vector(scratch, D, 0)))
+    return touch, load
+
+
+@routine
+def write_pair(world: World, k: int, scratch: Floats, time: float, found: Floats) -> None:
+    """Write the contact of pair k, which touches and lies in the first lane."""
+    touch, load = touch_of_pair(world, k, scratch, time)
+    pose, i, j = world.particles.pose, world.pairs.first[k], world.pairs.second[k]
+    share = pose[i, RADIUS] / (pose[i, RADIUS] + pose[j, RADIUS])
+    point = add(row(pose, i, X), scale(share, vector(scratch, D, 0)))
     write(found, float(i), float(j), point, load.force, touch.normal)
 
 

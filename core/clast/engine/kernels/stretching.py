@@ -14,7 +14,7 @@ from .layout import ENGINEERING, GROWTH, LOGARITHMIC, MOST_SHRUNK, PER_SPAN, SPA
 @inlined
 def span_at(box: Floats, c: int, time: float) -> float:
     """Return how far apart images are along an axis at a time since the start, in m."""
-    return box[SPAN_AT_START, c] * (exp(box[LOGARITHMIC, c] * time) + box[ENGINEERING, c] * time)
+    return box[SPAN_AT_START, c] * (exp(box[LOGARITHMIC, c] * time) + box[ENGINEERING, c] * time)  # type: ignore[no-any-return]
 
 
 @inlined

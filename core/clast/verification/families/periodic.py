@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from clast.results.cell import cell_stress
+from clast.scene.scene import strain_rates
 from clast.simulation import Simulation
 from clast.verification import needs
 from clast.verification.bench import Bench
@@ -24,6 +26,15 @@ and friction takes up their differences."""
 
 DISPERSION = 1e-4
 """Accuracy of a frequency: the step is a hundredth of the time that a wave takes from sphere to sphere."""
+
+EXACT = 1e-12
+"""Accuracy of lengths that are known at every time."""
+
+STRESS = 1e-8
+"""Accuracy of a stress: dashpots see the velocities at the last evaluation of forces, half a step before."""
+
+WORK = 1e-3
+"""Accuracy of work and heat, sums over steps of forces that set in at once: the dashpots' at the start."""
 
 MIDDLE = {
     "particles.particles.0.position": [5.7e-3, 4.4e-3, 5e-3],
@@ -78,6 +89,41 @@ def judge_ring(bench: Bench) -> Findings:
     yield Sketch("waves round a bonded ring", "k a", "ω, 10⁶ rad/s", tuple(lines))
 
 
+def judge_stretch(bench: Bench) -> Findings:
+    """Stretch a lattice in several ways, and compare stress, work and heat with those of its bonds, one by one."""
+    fast = {"boundaries.domain.strain_measure": "engineering"}
+    sideways = {"boundaries.domain.strain_rate": [0.0, 0.0, -20.0]}
+    for name, changes in (("", {}), ("engineering strain, ", fast), ("pressed along z, ", sideways)):
+        simulation = bench.run(changes)
+        scene, box, time = simulation.scene, simulation.box, simulation.time
+        assert scene.config.bonds is not None
+        axis = int(np.argmax(np.abs(strain_rates(scene.config))))
+        rate = float(strain_rates(scene.config)[axis])
+        stretch = 1.0 + rate * time if changes is fast else np.exp(rate * time)
+        yield Finding(f"{name}length of the box, m", scene.box.span[axis] * stretch, float(box.span[axis]), EXACT)
+        beam, m, count = beam_of(scene), float(scene.mass[0]), len(scene.mass)
+        section = box.volume / (count * float(scene.length[0]) * stretch)
+        dashpot = 2.0 * scene.config.bonds.damping * np.sqrt(beam.axial * 0.5 * m)
+        grows = scene.length[0] * rate * (1.0 if changes is fast else stretch)
+        force = beam.axial * scene.length[0] * (stretch - 1.0) + dashpot * grows
+        stress = cell_stress(simulation)
+        yield Finding(f"{name}stress along, Pa", float(force / section), float(stress[axis, axis]), STRESS)
+        along, stress[axis, axis] = float(stress[axis, axis]), 0.0
+        yield Finding(f"{name}other stresses, share of it", 0.0, float(np.abs(stress / along).max()), ROUNDING, True)
+        ledger = simulation.ledger()
+        stored = count * 0.5 * beam.axial * (scene.length[0] * (stretch - 1.0)) ** 2
+        heat = count * dashpot * squares_of_rates(scene.length[0], rate, time, changes is fast)
+        yield Finding(f"{name}work of the box, J", float(stored + heat), ledger.box, WORK)
+        yield Finding(f"{name}heat of the dashpots, J", float(heat), ledger.bond_viscous, WORK)
+
+
+def squares_of_rates(length: float, rate: float, time: float, engineering: bool) -> float:
+    """Return the integral over time of the squared rate at which a bond grows with the box, in m²/s."""
+    if engineering:
+        return float((length * rate) ** 2 * time)
+    return float(0.5 * length**2 * rate * (np.exp(2.0 * rate * time) - 1.0))
+
+
 def mean_place(simulation: Simulation) -> float:
     """Return how far all particles have gone along x on average, in m."""
     way: Floats = position(simulation) - simulation.scene.position
@@ -103,6 +149,15 @@ FAMILY = Family(
             judge_ring,
             "ω = 2 √(EA/(L m)) sin(k a/2), and 2 √(GJ/(L I)) sin(k a/2), with k a = 2 π j/n: L. Brillouin (1946), Wave "
             "Propagation in Periodic Structures",
+            (needs.cylinder,),
+        ),
+        Case(
+            "periodic_stretch",
+            "a cubic lattice stretched, and pressed, at a constant rate",
+            "periodic_stretch",
+            judge_stretch,
+            "every bond along grows with the box: σ = (EA (λ - 1) + c λ' L)/section of the cell, work = n ½ EA/L "
+            "((λ - 1) L)² + n c ∫ (λ' L)² dt, with λ = exp(ε' t) or 1 + ε' t",
             (needs.cylinder,),
         ),
     ),
