@@ -13,7 +13,7 @@ from clast.engine.chunks import shared_out
 from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, SPAN, SPAN_AT_SEARCH, V, X
 from clast.engine.near_pairs import near_pairs
 from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
-from clast.engine.tables import slot_view
+from clast.engine.tables import box_of, slot_view
 from clast.errors import RunError
 from clast.maths.box import Box
 from clast.parts.neighbour_search import NeighbourSearch
@@ -169,5 +169,7 @@ def remember_positions(particles: Particles, walls: Walls, slack: Floats) -> Non
     """Note where everything is and may go, so that the loop can tell when the lists go stale."""
     particles.reference[:, :3] = particles.pose[:, X : X + 3]
     particles.reference[:, 3] = slack * slack
-    particles.box[SPAN_AT_SEARCH] = particles.box[SPAN]
+    box = box_of(particles)
+    if box is not None:
+        box[SPAN_AT_SEARCH] = box[SPAN]
     walls.reference[:] = walls.displacement

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +37,18 @@ from clast.engine.kernels.layout import (
 )
 from clast.engine.records import columns
 from clast.engine.slots_text import bond_offsets
-from clast.engine.state import Bonds, Bytes, Cracks, Floats, Indices, Integers, Pairs, Particles, WallPairs
+from clast.engine.state import (
+    Bonds,
+    Bytes,
+    Cracks,
+    Floats,
+    Indices,
+    Integers,
+    Pairs,
+    Particles,
+    RepeatedParticles,
+    WallPairs,
+)
 from clast.maths.box import Box
 
 
@@ -51,13 +62,11 @@ def particle_tables(
     prescribed: NDArray[np.bool_],
     weight: Floats,
     applied: Floats,
-    box: Floats,
 ) -> Particles:
     """Return the tables of n particles: (n, 3) positions, velocities and spins, (n,) all else, SI.
 
     ``weight`` is the share of its mass that body forces act on: less than 1 for a particle that was made heavier.
-    ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows; ``box``
-    is that of :func:`box_table`.
+    ``applied`` (n, 6) holds the force and the torque that act on each particle all the time, or has no rows.
     Prescribed particles get no inverse mass and inertia, so nothing changes their velocity and spin.
     """
     n = len(position)
@@ -82,23 +91,33 @@ def particle_tables(
         reference=np.zeros((n, 4)),
         applied=_load_rows(applied),
         present=np.ones(n, np.uint8),
-        box=box,
     )
 
 
-def box_table(box: Box, rates: Floats, logarithmic: bool) -> Floats:
-    """Return the rows (BOX_ROWS, 3) of a box that is stretched at rates (3,) in 1/s of the one strain or the other."""
+def repeated(particles: Particles, box: Box, rates: Floats, logarithmic: bool) -> Particles:
+    """Return particles with the table of a box that is stretched at rates (3,) in 1/s of the one strain or the other.
+
+    The particles alone where the box does not repeat itself.
+    """
+    if not box.repeats:
+        return particles
     table = np.zeros((BOX_ROWS, 3))
     table[[SPAN, SPAN_AT_START, SPAN_AT_SEARCH]], table[PER_SPAN] = box.span, box.per_span
     table[LOGARITHMIC if logarithmic else ENGINEERING] = rates
     table[GROWTH] = box.span * rates
     table[MIDDLE] = box.middle
-    return table
+    return cast(Particles, RepeatedParticles(*particles, table))
+
+
+def box_of(particles: Particles) -> Floats | None:
+    """Return the table of the box that particles repeat themselves in; None where they do not."""
+    return particles.box if isinstance(particles, RepeatedParticles) else None
 
 
 def box_now(start: Box, particles: Particles) -> Box:
     """Return the box in which particles repeat themselves as it is now, from that at the start."""
-    return start.grown(particles.box[SPAN])
+    table = box_of(particles)
+    return start if table is None else start.grown(table[SPAN])
 
 
 def _load_rows(loads: Floats) -> Floats:

@@ -54,7 +54,8 @@ class Box(NamedTuple):
     @property
     def middle(self) -> Floats:
         """Middle of the sides, (3,) in m; 0 in directions that are not periodic."""
-        return np.where(self.periodic, 0.5 * self.lower + 0.5 * self.upper, 0.0)
+        lower, upper = (np.where(self.periodic, corner, 0.0) for corner in (self.lower, self.upper))
+        return 0.5 * lower + 0.5 * upper
 
     @property
     def volume(self) -> float:

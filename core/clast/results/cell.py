@@ -8,6 +8,7 @@ import numpy as np
 
 from clast.engine.kernels.layout import GROWTH, INVERSE_MASS, PER_SPAN, V, X
 from clast.engine.state import Floats
+from clast.engine.tables import box_of
 from clast.scene.scene import is_logarithmic
 
 if TYPE_CHECKING:
@@ -43,9 +44,11 @@ def cell_stress(simulation: Simulation) -> Floats:
     """
     box, particles, found = simulation.box, simulation.world.particles, np.zeros((3, 3))
     simulation.kernel.virial(simulation.world, simulation.step > 0, found)
+    table = box_of(particles)
+    assert table is not None
     heavy = particles.body[:, INVERSE_MASS] > 0.0
     mass = 1.0 / particles.body[heavy, INVERSE_MASS]
     place, velocity = particles.pose[heavy, X : X + 3], particles.twist[heavy, V : V + 3]
-    own = velocity - particles.box[GROWTH] * particles.box[PER_SPAN] * (place - box.middle)
+    own = velocity - table[GROWTH] * table[PER_SPAN] * (place - box.middle)
     found -= np.einsum("k,ka,kc->ac", mass, own, own)
     return np.asarray(0.5 * (found + found.T) / box.volume)

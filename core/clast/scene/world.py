@@ -20,12 +20,12 @@ from clast.engine.records import fields, leaves, numbers
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
 from clast.engine.tables import (
     bond_table,
-    box_table,
     crack_table,
     empty_pairs,
     empty_wall_pairs,
     no_bonds,
     particle_tables,
+    repeated,
 )
 from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs
 from clast.scene.scene import Scene, is_logarithmic, strain_rates
@@ -49,8 +49,8 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
         scene.prescribed,
         weights(scene),
         applied_loads(scene),
-        box_table(scene.box, strain_rates(scene.config), is_logarithmic(scene.config)),
     )
+    particles = repeated(particles, scene.box, strain_rates(scene.config), is_logarithmic(scene.config))
     return World(
         particles=on_lines(particles),
         bonds=on_lines(bonds),

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.images import velocities_between
+from clast.engine.images import growth, velocities_between
 from clast.engine.impact import impact_duration
-from clast.engine.kernels.layout import GROWTH, INVERSE_MASS, MATERIAL, RADIUS, V
+from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V
 from clast.engine.state import Floats, World
 from clast.scene.scene import Scene
 from clast.soundness.near import Energies, Nearness
@@ -52,7 +52,7 @@ class ImpactsAhead:
         if not self.energies.constants:
             return None
         closing = 2.0 * fastest(world.particles.twist[:, V : V + 3]) + fastest(world.walls.velocity)
-        closing += fastest(world.particles.box[[GROWTH]])
+        closing += growth(world.particles)
         if closing <= self.harmless:
             return None
         if all(self.steps(each, dt) >= LEAST_STEPS for each in self._shortest(1.25 * closing)):

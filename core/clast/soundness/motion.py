@@ -7,7 +7,7 @@ import numpy as np
 from clast.engine.blueprint import Blueprint
 from clast.engine.kernels.layout import INTACT, PER_SPAN, RADIUS, V, W, X
 from clast.engine.state import World
-from clast.engine.tables import slot_view
+from clast.engine.tables import box_of, slot_view
 from clast.scene.scene import Scene
 from clast.soundness.near import Nearness
 from clast.soundness.suspects import suspects
@@ -54,11 +54,11 @@ def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | No
 
 def round_the_other_way(world: World) -> str | None:
     """Return which bond spans so much of a periodic side that its ends are hardly nearer this way than the other."""
-    bonds, per_span = world.bonds, world.particles.box[PER_SPAN]
-    if not per_span.any() or not len(bonds.first):
+    bonds, box = world.bonds, box_of(world.particles)
+    if box is None or not len(bonds.first):
         return None
     place = world.particles.pose[:, X : X + 3]
-    away = (place[bonds.second] - place[bonds.first]) * per_span
+    away = (place[bonds.second] - place[bonds.first]) * box[PER_SPAN]
     share = np.abs(away - np.rint(away)).max(axis=2) * (slot_view(bonds, INTACT) == 1.0)
     if share.max() <= LONGEST_WAY:
         return None

@@ -10,7 +10,7 @@ from clast.parts.bond_kinematics import BondMotion, EndLoads
 from clast.parts.bond_model import BondLoad
 
 from .bond_dashpots import damped
-from .images import image_velocity, nearest
+from .images import box_of, image_velocity, nearest
 from .lanes import put, vector
 from .layout import (
     BOND_D,
@@ -72,7 +72,7 @@ def gather(particles: Particles, i: int, j: int, scratch: Floats, lane: int) -> 
     for c in range(3):
         scratch[(BOND_D + c) * LANES + lane] = pose[j, X + c] - pose[i, X + c]
     if PERIODIC:
-        put(scratch, BOND_D, lane, nearest(particles.box, vector(scratch, BOND_D, lane)))
+        put(scratch, BOND_D, lane, nearest(box_of(particles), vector(scratch, BOND_D, lane)))
     if BOND_ORIENTATION:
         for c in range(4):
             scratch[(BOND_QI + c) * LANES + lane] = pose[i, Q + c]

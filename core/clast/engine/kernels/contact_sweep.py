@@ -11,7 +11,7 @@ from clast.maths.vec3 import dot, scale, sub
 
 from .ahead import LINE, ask_for
 from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
-from .images import nearest, velocity_between, way_between
+from .images import box_of, nearest, velocity_between, way_between
 from .lanes import put, row, vector
 from .layout import (
     FIRST,
@@ -59,7 +59,7 @@ def meet(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, scratch: 
     i, j = pairs.first[k], pairs.second[k]
     d = (pose[j, X] - pose[i, X], pose[j, X + 1] - pose[i, X + 1], pose[j, X + 2] - pose[i, X + 2])
     if PERIODIC:
-        d = nearest(particles.box, d)
+        d = nearest(box_of(particles), d)
     r_i, r_j = radii(particles, i, j, numbers)
     put(scratch, D, lane, d)
     if not ONE_SIZE:

@@ -15,7 +15,8 @@ from .bond_lane import gather as gather_ends
 from .bond_lane import read_motion
 from .contact_lane import HISTORY_BASE, gather, kept_drag, read_drag, read_touch
 from .contact_sweep import joined, meet
-from .going_back import go_back
+from .going_back import go_back, time_now
+from .images import box_of
 from .lanes import row, vector
 from .layout import (
     BOND_SCRATCH,
@@ -72,6 +73,7 @@ from .slots import (
     read_uniforms,
     row_constants,
 )
+from .stretching import stretch_box
 from .wall_places import place_on_wall
 from .wall_sweep import farthest, wall_constants, wall_reach, wall_touch
 
@@ -104,7 +106,7 @@ def energies(world: World, moving: bool, found: Floats) -> None:
     back = -LAG * world.numbers.dt
     time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
     scratch = np.empty(max(BOND_SCRATCH, HISTORY_BASE + HISTORY + 1) * LANES)
-    poses, displacements, box = world.particles.pose.copy(), world.walls.displacement.copy(), world.particles.box.copy()
+    poses, displacements = world.particles.pose.copy(), world.walls.displacement.copy()
     if LAG != 0.0:
         go_back(world, scratch, back)
     found[0] = kinetic_energy(world.particles, world.numbers.dt)
@@ -115,8 +117,9 @@ def energies(world: World, moving: bool, found: Floats) -> None:
         found[LATEST + BOX_DID] += time * world.ledger[:, BOX_POWER].sum()
     if LAG != 0.0:
         world.particles.pose[:] = poses
-        world.particles.box[:] = box
         world.walls.displacement[:] = displacements
+        if STRETCHES:
+            stretch_box(box_of(world.particles), time_now(world))
 
 
 @inlined

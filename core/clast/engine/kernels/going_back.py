@@ -5,10 +5,17 @@ from __future__ import annotations
 from clast.engine.compiler import inlined
 from clast.engine.state import Floats, World
 
+from .images import box_of
 from .layout import STEP
 from .motion import drift, turn_all
 from .slots import ORIENTATION, STRETCHES
 from .stretching import stretch_box
+
+
+@inlined
+def time_now(world: World) -> float:
+    """Return the time in s to which all steps that are over lead."""
+    return world.numbers.first_time + (world.clock[STEP] - world.numbers.first_step) * world.numbers.dt  # type: ignore[no-any-return]
 
 
 @inlined
@@ -23,6 +30,4 @@ def go_back(world: World, scratch: Floats, time: float) -> None:
         for c in range(3):
             walls.displacement[w, c] -= time * walls.velocity[w, c]
     if STRETCHES:
-        numbers = world.numbers
-        now = numbers.first_time + (world.clock[STEP] - numbers.first_step) * numbers.dt
-        stretch_box(particles.box, now - time)
+        stretch_box(box_of(particles), time_now(world) - time)

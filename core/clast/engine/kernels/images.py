@@ -6,6 +6,8 @@ nearest image. In scenes without a periodic direction none of this is compiled.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from clast.engine.compiler import inlined
@@ -15,6 +17,12 @@ from clast.maths.vec3 import Vec, add, sub
 from .lanes import row
 from .layout import GROWTH, PER_SPAN, SPAN, V, X
 from .slots import PERIODIC, STRETCHES
+
+
+@inlined
+def box_of(particles: Any) -> Any:
+    """Return the table of the box, which only particles that repeat themselves have."""
+    return particles.box
 
 
 @inlined
@@ -35,14 +43,14 @@ def way_between(particles: Particles, i: int, j: int) -> Vec:
     """Return the way from particle i to particle j, or to its nearest image, in m."""
     d = sub(row(particles.pose, j, X), row(particles.pose, i, X))
     if PERIODIC:
-        d = nearest(particles.box, d)
+        d = nearest(box_of(particles), d)
     return d
 
 
 @inlined
 def image_velocity(particles: Particles, i: int, j: int) -> Vec:
     """Return how fast the image of particle j that is nearest to i flees from j itself, as the box is stretched."""
-    d, box = sub(row(particles.pose, j, X), row(particles.pose, i, X)), particles.box
+    d, box = sub(row(particles.pose, j, X), row(particles.pose, i, X)), box_of(particles)
     return (
         -box[GROWTH, 0] * np.rint(d[0] * box[PER_SPAN, 0]),
         -box[GROWTH, 1] * np.rint(d[1] * box[PER_SPAN, 1]),

@@ -8,6 +8,7 @@ from clast.maths.rotation import turn
 from clast.maths.vec3 import Vec, add, dot, scale
 from clast.parts.integrator import Stage
 
+from .images import box_of
 from .lanes import put, row, vector
 from .layout import (
     APPLIED_WORK,
@@ -44,6 +45,9 @@ from .slots import (
     body_load,
     braking,
 )
+from .stretching import shrunk, since_search
+
+UNSTRETCHED = (1.0, 1.0, 1.0)
 
 
 @inlined
@@ -114,19 +118,22 @@ def strayed(particles: Particles, k: int, stretch: Vec) -> bool:
     dy = pose[k, X + 1] - reference[k, 1]
     dz = pose[k, X + 2] - reference[k, 2]
     if STRETCHES:
-        dx -= (stretch[0] - 1.0) * (reference[k, 0] - particles.box[MIDDLE, 0])
-        dy -= (stretch[1] - 1.0) * (reference[k, 1] - particles.box[MIDDLE, 1])
-        dz -= (stretch[2] - 1.0) * (reference[k, 2] - particles.box[MIDDLE, 2])
+        dx -= (stretch[0] - 1.0) * (reference[k, 0] - box_of(particles)[MIDDLE, 0])
+        dy -= (stretch[1] - 1.0) * (reference[k, 1] - box_of(particles)[MIDDLE, 1])
+        dz -= (stretch[2] - 1.0) * (reference[k, 2] - box_of(particles)[MIDDLE, 2])
     return not dx * dx + dy * dy + dz * dz <= reference[k, 3]
 
 
 @inlined
 def move_before_forces(
-    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats, stretch: Vec
+    particles: Particles, begin: int, end: int, stage: Stage, numbers: Numbers, scratch: Floats, time: float
 ) -> bool:
-    """Kick and drift to the force evaluation, begin the loads; tell whether neighbour lists are stale."""
+    """Kick and drift to the force evaluation at a time, begin the loads; tell whether neighbour lists are stale."""
     dt = numbers.dt
-    stale = False
+    stale, stretch = False, UNSTRETCHED
+    if STRETCHES:
+        stretch = since_search(box_of(particles), time)
+        stale = shrunk(stretch)
     for k in range(begin, end):
         if stage.kick_before != 0.0:
             kick(particles, k, stage.kick_before * dt)

@@ -15,14 +15,13 @@ from clast.parts.integrator import Stage
 
 from .bond_sweep import sweep_bonds
 from .contact_sweep import sweep_contacts
-from .layout import BOX_POWER, BOX_WORK, DONE, LANES, MOVED, PRIMED, STAGE, STALE, STEP
+from .images import box_of
+from .layout import BOX_POWER, DONE, LANES, MOVED, PRIMED, STAGE, STALE, STEP
 from .motion import move_after_forces, move_before_forces
 from .slots import BONDS, CHUNKED, CONTACTS, FORCES_AT, SPANS, STAGES, STRETCHES, WALLS
-from .stretching import shrunk, since_search, stretch_box
+from .stretching import book_box_work, stretch_box
 from .wall_motion import book_wall_work, clear_wall_forces, move_walls, start_walls, steer_walls, sum_wall_forces
 from .wall_sweep import sweep_walls
-
-UNSTRETCHED = (1.0, 1.0, 1.0)
 
 
 @inlined
@@ -62,6 +61,13 @@ def until_next_forces(clock: Integers) -> tuple[float, float]:
 
 
 @inlined
+def time_of_forces(clock: Integers, numbers: Numbers) -> float:
+    """Return the time in s at which forces are evaluated now."""
+    at, _ = until_next_forces(clock)
+    return numbers.first_time + (clock[STEP] - numbers.first_step + at) * numbers.dt  # type: ignore[no-any-return]
+
+
+@inlined
 def count_stage(clock: Integers) -> bool:
     """Note that a stage is over; tell whether the step is."""
     clock[MOVED] = 0
@@ -79,17 +85,12 @@ def count_stage(clock: Integers) -> bool:
 @inlined
 def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float, span: float) -> None:
     """Move the chunks from ``begin`` to ``end``, and the walls, to where forces are evaluated at a time."""
-    numbers, chunks, stretch = world.numbers, world.chunks, UNSTRETCHED
-    if STRETCHES:
-        stretch = since_search(world.particles.box, time)
-        if first:
-            stretch_box(world.particles.box, time)
+    numbers, chunks = world.numbers, world.chunks
     for c in range(begin, end):
-        scratch = world.scratch[c]
-        moved_on = move_before_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, stretch)
+        moved_on = move_before_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, world.scratch[c], time)
         world.stale[c] = 1 if moved_on else 0
-        if STRETCHES and shrunk(stretch):
-            world.stale[c] = 1
+    if STRETCHES and first:
+        stretch_box(box_of(world.particles), time)
     if WALLS and first:
         if world.clock[PRIMED] == 0:
             start_walls(world.walls, time)
@@ -102,10 +103,10 @@ def move_to_forces(world: World, begin: int, end: int, first: bool, stage: Stage
 @inlined
 def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: float, step: int) -> None:
     """Add the loads of bonds and contacts to the particles of the chunks from ``begin`` to ``end``."""
-    particles, numbers, power = world.particles, world.numbers, 0.0
+    particles, numbers = world.particles, world.numbers
     for c in range(begin, end):
         if STRETCHES:
-            power = world.ledger[c, BOX_POWER]
+            book_box_work(world.ledger[c], span)
             world.ledger[c, BOX_POWER] = 0.0
         if BONDS:
             sweep_bonds(world.bonds, c, particles, world.cracks, numbers, world.scratch[c], world.ledger[c], span, step)
@@ -114,7 +115,7 @@ def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: floa
                 world.pairs, c, world.bonds, particles, numbers, world.scratch[c], active, world.ledger[c], span
             )
         if STRETCHES:
-            world.ledger[c, BOX_WORK] += 0.5 * span * (power + world.ledger[c, BOX_POWER])
+            book_box_work(world.ledger[c], span)
 
 
 @inlined
@@ -126,7 +127,7 @@ def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Sta
         move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book, span)
     if STRETCHES and first:
         at, _ = until_next_forces(world.clock)
-        stretch_box(world.particles.box, time + (at + stage.drift_after) * numbers.dt)
+        stretch_box(box_of(world.particles), time + (at + stage.drift_after) * numbers.dt)
     if WALLS and first:
         at, span_on = until_next_forces(world.clock)
         if span_on > 0.0:
@@ -151,8 +152,10 @@ def advance(world: World, steps: int, team: Team) -> int:
         time = numbers.first_time + (clock[STEP] - numbers.first_step) * numbers.dt
         span = time_since_forces(clock, numbers)
         if clock[MOVED] == 0:
-            at, _ = until_next_forces(clock)
-            move_to_forces(world, begin, end, first, stage, time + at * numbers.dt, span)
+            then = time
+            if STRETCHES:
+                then = time_of_forces(clock, numbers)
+            move_to_forces(world, begin, end, first, stage, then, span)
             if CHUNKED:
                 wait(team)
             clock[MOVED] = 1

@@ -8,7 +8,18 @@ from clast.engine.compiler import inlined
 from clast.engine.state import Floats
 from clast.maths.vec3 import Vec
 
-from .layout import ENGINEERING, GROWTH, LOGARITHMIC, MOST_SHRUNK, PER_SPAN, SPAN, SPAN_AT_SEARCH, SPAN_AT_START
+from .layout import (
+    BOX_POWER,
+    BOX_WORK,
+    ENGINEERING,
+    GROWTH,
+    LOGARITHMIC,
+    MOST_SHRUNK,
+    PER_SPAN,
+    SPAN,
+    SPAN_AT_SEARCH,
+    SPAN_AT_START,
+)
 
 
 @inlined
@@ -46,3 +57,12 @@ def stretch_since(box: Floats, c: int, time: float) -> float:
 def shrunk(stretch: Vec) -> bool:
     """Tell whether what was too far away to be listed may have come near because the box shrank."""
     return min(stretch[0], stretch[1], stretch[2]) * (1.0 + MOST_SHRUNK) < 1.0
+
+
+@inlined
+def book_box_work(book: Floats, span: float) -> None:
+    """Book half of the work of the box on the way from one force evaluation to the next, with the power at one.
+
+    Called before the forces of a chunk are computed, which then sum up the power anew, and after them.
+    """
+    book[BOX_WORK] += 0.5 * span * book[BOX_POWER]
