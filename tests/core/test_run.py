@@ -120,6 +120,7 @@ def test_particles_that_leave_the_domain_are_removed_and_counted(collision: Path
     assert outcome.summary["fragments"] == 1
     with open_run(tmp_path / "run") as run:
         assert np.isnan(run.frame(-1).position[0]).all()
+        assert run.curves["particles_removed"][[0, -1]].tolist() == [0.0, 1.0]
 
 
 def test_overlaps_at_the_start_are_refused(collision: Path) -> None:

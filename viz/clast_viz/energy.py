@@ -43,7 +43,7 @@ BANDS = (
     Band("damping of motion", "#dfc27d", ("braked",)),
     Band("left with particles", "#bababa", ("left",)),
 )
-WORK = ("start", "walls", "driven", "applied", "body", "woken")
+WORK = ("start", "walls", "driven", "applied", "body", "box", "woken")
 
 
 class EnergyParams(Params):
@@ -91,7 +91,7 @@ def energy_figure(x: NDArray[np.float64], label: str, energy: Energies) -> Any:
 
 
 def _work(energy: Energies) -> NDArray[np.float64]:
-    return sum((energy[name] for name in WORK), np.zeros_like(energy["kinetic"]))
+    return sum((energy[name] for name in WORK if name in energy), np.zeros_like(energy["kinetic"]))
 
 
 def _top(work: NDArray[np.float64]) -> float:

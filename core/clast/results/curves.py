@@ -15,7 +15,7 @@ FILE = "curves.csv"
 ENERGY = "energy_{}_J"
 """Name of the column of a term of the energy ledger."""
 
-COUNTS = ("bonds_intact", "bonds_broken")
+COUNTS = ("bonds_intact", "bonds_broken", "particles_removed")
 
 
 def write(path: Path, curves: dict[str, NDArray[np.float64]]) -> Path:

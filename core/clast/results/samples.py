@@ -89,6 +89,8 @@ class Samples:
         row |= {name: float(pressing[k]) for name, k in self.curved_columns.items()}
         row |= {name: self._stage(int(walls.stage[k, 0]), k) for name, k in self.stage_columns.items()}
         row |= {"bonds_intact": simulation.bonds_intact, "bonds_broken": simulation.bonds_broken}
+        if simulation.config.boundaries.domain is not None and not simulation.box.periodic.all():
+            row["particles_removed"] = simulation.removed
         return row | (energy.columns(ledger) if simulation.plan.ledger else {})
 
     def _stage(self, number: int, wall: int) -> int:
