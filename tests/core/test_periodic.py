@@ -214,9 +214,20 @@ def test_walls_along_the_periodic_directions_are_taken():
     check_start(build_scene(scene(PAIR, boundaries={"domain": domain}, walls={"floor": floor})))
 
 
-def test_a_body_force_that_differs_from_image_to_image_is_refused():
-    spin = {"type": "rotating_frame", "spin": [0, 0, 10.0]}
-    assert "body_forces.0: 'rotating_frame' is not the same in every image" in refusal(scene(PAIR, body_forces=[spin]))
+@pytest.mark.parametrize(
+    ("force", "boundaries"),
+    [
+        ({"type": "rotating_frame", "spin": [0, 0, 10.0]}, {"domain": DOMAIN}),
+        ({"type": "viscous_drag", "viscosity": "1e-3 Pa s"}, PRESSED),
+    ],
+)
+def test_a_body_force_that_differs_from_image_to_image_is_refused(force, boundaries):
+    text = refusal(scene(PAIR, boundaries=boundaries, body_forces=[force]))
+    assert f"body_forces.0: '{force['type']}' is not the same in every image" in text
+
+
+def test_a_drag_is_the_same_in_every_image_of_a_box_that_stays():
+    check_start(build_scene(scene(PAIR, body_forces=[{"type": "viscous_drag", "viscosity": "1e-3 Pa s"}])))
 
 
 def test_particles_may_begin_outside_and_overlap_across_a_face():

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, Discriminator, Field, PrivateAttr, Tag, ValidationError
 
 from clast.config.beside import NEIGHBOURS, WALL, NeighbourChoice, WallChoice
+from clast.config.boundaries import Boundaries
 from clast.config.choice import Chosen, PartOf, default_part
 from clast.config.conditions import blind_conditions
 from clast.config.contacts import Contacts
@@ -21,7 +22,6 @@ from clast.config.problems import UNKNOWN_PART, located
 from clast.config.references import check_references
 from clast.config.sections import (
     Bonds,
-    Boundaries,
     Compression,
     Material,
     Output,

@@ -46,7 +46,7 @@ def _pushes(scene: Scene) -> Iterator[tuple[str, Floats]]:
     """Yield what pushes, and the unit vector along which it does."""
     for k, chosen in enumerate(scene.config.body_forces):
         numbers = chosen.part.numbers(chosen.params, scene.config.time.mass_scaling)
-        pull = _pull(chosen, numbers, tuple(scene.position[0].tolist()), float(scene.radius[0]))
+        pull = pull_of(chosen, numbers, tuple(scene.position[0].tolist()), ZERO, float(scene.radius[0]))
         if pull.any():
             yield f"body_forces.{k} ({chosen.name})", pull / np.linalg.norm(pull)
     for name, wall in scene.config.walls.items():
@@ -55,11 +55,11 @@ def _pushes(scene: Scene) -> Iterator[tuple[str, Floats]]:
             yield f"walls.{name}", way / np.linalg.norm(way)
 
 
-def _pull(chosen: Chosen, numbers: Any, x: Vec, radius: float) -> Floats:
-    """Return what a body force does to a particle at rest, as an acceleration or a force."""
+def pull_of(chosen: Chosen, numbers: Any, x: Vec, v: Vec, radius: float) -> Floats:
+    """Return what a body force does to a particle with a velocity and no spin, as an acceleration or a force."""
     if chosen.part.acceleration is not None:
-        return np.array(chosen.part.acceleration(numbers, x, ZERO, 0.0))
-    return np.array(chosen.part.load(numbers, x, ZERO, ZERO, radius, 0.0)[0])
+        return np.array(chosen.part.acceleration(numbers, x, v, 0.0))
+    return np.array(chosen.part.load(numbers, x, v, ZERO, radius, 0.0)[0])
 
 
 def _direction(motion: Chosen) -> Floats:
