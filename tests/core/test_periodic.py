@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 
-from clast import open_run, run_scene
+from clast import export_run, load, open_run, run_scene
 from clast.config.scene import SceneConfig, from_mapping
 from clast.engine.kernels.layout import X
 from clast.errors import ConfigError, RunError
@@ -82,6 +83,33 @@ def test_frames_tell_where_particles_are_and_how_far_they_went(gas_run):
     went = simulation.world.particles.pose[:, X : X + 3]
     np.testing.assert_allclose(last.unwrapped, went, atol=1e-6 * SIDE)
     assert last.box.periodic.all()
+
+
+def test_lammps_reads_where_the_box_is_and_how_often_each_particle_left_it(gas_run, tmp_path):
+    folder = export_run(gas_run, "lammps", tmp_path / "lammps", frames="last")
+    lines = (folder / "particles.dump").read_text().splitlines()
+    assert "ITEM: BOX BOUNDS pp pp pp" in lines
+    assert lines[lines.index("ITEM: BOX BOUNDS pp pp pp") + 1] == "0 0.01"
+    rows = np.array([line.split() for line in lines[-27:]], float)
+    with open_run(gas_run) as run:
+        np.testing.assert_allclose(rows[:, 3:6] + SIDE * rows[:, -3:], run.frame(-1).unwrapped, atol=1e-6 * SIDE)
+
+
+@pytest.fixture(scope="module")
+def ring_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a run of twelve bonded spheres in a row without ends."""
+    given = load("configs/verification/periodic_ring.yaml").changed(
+        {"time.end.steps": 10, "output": {"frames": 2, "samples": 2, "writers": []}}
+    )
+    return run_scene(given, tmp_path_factory.mktemp("periodic") / "ring").folder
+
+
+def test_no_bond_is_drawn_across_the_box(ring_run, tmp_path):
+    with open_run(ring_run) as run:
+        lines = run.frame(-1).lines(run.bond_ends)
+    np.testing.assert_allclose(np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1), 1e-3, rtol=1e-4)
+    with h5py.File(export_run(ring_run, "vtkhdf", tmp_path / "ring.vtkhdf", frames="last")) as file:
+        assert len(file["VTKHDF/Lines/Connectivity"]) == 2 * 11
 
 
 PAIR = [{"position": [1e-3, 5e-3, 5e-3], "radius": 1e-3}, {"position": [9e-3, 5e-3, 5e-3], "radius": 1e-3}]

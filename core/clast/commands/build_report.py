@@ -180,6 +180,8 @@ def features(plan: Blueprint) -> list[tuple[str, bool, str]]:
         ("rolling friction", law is not None and law.rolling, "rolling torques"),
         ("walls", bool(plan.walls), names or "planes, cylinders"),
         ("moving walls", bool(plan.motions), "velocities of walls"),
+        ("periodic box", plan.periodic, "ways to the nearest images"),
+        ("stretching of the box", plan.stretches, "velocities of images, and work on them"),
         ("body forces", bool(plan.body_forces), "gravity and others"),
         ("damping of motion", plan.damping is not None, "what brakes every particle"),
         ("applied loads", plan.applied_loads, "constant forces and torques on particles"),

@@ -18,6 +18,7 @@ from clast.results.contacts import GROUP as CONTACTS
 from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
 from clast.results.whole_file import whole_file
 from clast.scene.scatter import scatter_entries
+from clast.scene.scene import spans_at
 
 if TYPE_CHECKING:
     from clast.simulation import Simulation
@@ -129,12 +130,14 @@ class Store:
         rows = crack_rows(cracks)[self.known("cracks") :]
         bond = cracks.bond[rows]
         area = 0.25 * np.pi * scene.diameter[bond] ** 2
+        time = simulation.timeline.times(cracks.step[rows])
+        then = scene.box.grown(spans_at(scene.config, time))
         columns: tuple[NDArray[Any], ...] = (
-            simulation.timeline.times(cracks.step[rows]),
+            time,
             bond,
             cracks.ends[rows, 0],
             cracks.ends[rows, 1],
-            simulation.box.wrapped(cracks.position[rows]),
+            then.wrapped(cracks.position[rows]),
             cracks.mode[rows].astype(np.uint8),
             cracks.load[rows, 0] / area,
             cracks.load[rows, 1] / area,

@@ -43,7 +43,7 @@ def most_skin(scene: Scene, box: Box | None = None) -> float:
         As it is now; by default that of the start.
     """
     box = box or scene.box
-    if not box.repeats:
+    if not box.repeats or scene.config.contacts is None:
         return np.inf
     side = float(box.span[box.periodic].min()) / (1.0 + shrinkage(scene))
     return 0.25 * side - float(scene.radius.max()) - 0.5 * largest_reach(scene)
@@ -78,8 +78,6 @@ def check_repeats(scene: Scene) -> None:
 
 
 def _refuse_short_sides(scene: Scene) -> None:
-    if scene.config.contacts is None:
-        return
     skin, smallest = scene.config.neighbours.skin, float(scene.radius.min())
     least = LEAST_SKIN * smallest if isinstance(skin, str) else 0.5 * skin
     lacking = (least - most_skin(scene)) * (1.0 + shrinkage(scene))

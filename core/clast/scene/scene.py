@@ -136,3 +136,9 @@ def is_logarithmic(config: SceneConfig) -> bool:
     """Tell whether the rates at which a box is stretched are those of the logarithmic strain."""
     domain = config.boundaries.domain
     return domain is not None and domain.strain_measure == "logarithmic"
+
+
+def spans_at(config: SceneConfig, time: Floats) -> Floats:
+    """Return how far apart images are at times (k,) in s since the start, (k, 3) in m; 0 where none follow."""
+    span, strain = box_of(config).span, strain_rates(config) * time[:, None]
+    return span * (np.exp(strain) if is_logarithmic(config) else 1.0 + strain)
