@@ -6,12 +6,11 @@ from math import inf, sqrt
 
 from clast.engine.compiler import compiled, inlined
 from clast.engine.state import Floats, World
-from clast.maths.vec3 import Vec, dot, sub
+from clast.maths.vec3 import Vec, dot
 
 from .contact_sweep import joined
 from .images import way_between
-from .lanes import row
-from .layout import FIRST, RADIUS, X
+from .layout import FIRST, RADIUS
 from .slots import BONDED_PAIRS_TOUCH, CONTACTS, WALLS
 from .wall_places import place_on_wall
 
