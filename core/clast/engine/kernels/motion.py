@@ -171,29 +171,30 @@ def load_by_body(particles: Particles, k: int, numbers: Numbers, time: float) ->
 
 
 @inlined
-def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: float, book: Floats, span: float) -> None:
-    """Book the work on particle k, since the forces before, of body forces, applied loads, and what drives it.
+def book_outside_work(particles: Particles, k: int, numbers: Numbers, time: float, book: Floats, kicked: float) -> None:
+    """Book the work on particle k of body forces, applied loads, and what drives it.
 
-    Velocities are those at the force evaluation, half a step of acceleration after the kick before it: with them the
-    work of all forces together is the change of the kinetic energy, to the rounding. Schemes with several evaluations
-    a step have no such velocity: theirs are those with which the way was made.
+    Velocities are those at the force evaluation, half a step of acceleration after the kick before it, and ``kicked``
+    is the time for which forces change velocities: with them the work of all forces together is the change of the
+    kinetic energy, to the rounding, from the first step on. Schemes with several evaluations a step have no such
+    velocity: theirs are those with which the way was made.
     """
     half = half_kick(numbers.dt)
     v = add(row(particles.twist, k, V), scale(half, row(particles.acceleration, k, F)))
     w = add(row(particles.twist, k, W), scale(half, row(particles.acceleration, k, M)))
     if APPLIED_LOADS:
         power = dot(row(particles.applied, k, F), v) + dot(row(particles.applied, k, M), w)
-        book[APPLIED_WORK] += span * power
+        book[APPLIED_WORK] += kicked * power
     if BODY_LOADS:
         force, torque = load_by_body(particles, k, numbers, time)
-        book[BODY_WORK] += span * (dot(force, v) + dot(torque, w))
+        book[BODY_WORK] += kicked * (dot(force, v) + dot(torque, w))
     per_mass = particles.body[k, INVERSE_MASS]
     if per_mass == 0.0:
         power = dot(row(particles.load, k, F), v) + dot(row(particles.load, k, M), w)
-        book[DRIVEN_WORK] -= span * power
+        book[DRIVEN_WORK] -= kicked * power
     elif BODY_FORCES:
         weight = particles.body[k, WEIGHT] / per_mass
-        book[BODY_WORK] += span * weight * dot(body_force(particles, k, numbers, time), v)
+        book[BODY_WORK] += kicked * weight * dot(body_force(particles, k, numbers, time), v)
 
 
 @inlined
@@ -216,8 +217,8 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
 
 
 @inlined
-def brake(particles: Particles, k: int, numbers: Numbers, book: Floats, span: float) -> None:
-    """Change the acceleration of particle k by the damping of motion; book its heat since the forces before.
+def brake(particles: Particles, k: int, numbers: Numbers, book: Floats, kicked: float) -> None:
+    """Change the acceleration of particle k by the damping of motion; book its heat.
 
     The heat is at the same velocities as the work from outside: see ``book_outside_work``.
     """
@@ -228,7 +229,7 @@ def brake(particles: Particles, k: int, numbers: Numbers, book: Floats, span: fl
             for c in range(3):
                 acceleration[k, first + c] += taken[c]
             v = add(row(particles.twist, k, first), scale(half, row(acceleration, k, first)))
-            book[BRAKED] -= span / particles.body[k, inverse] * dot(taken, v)
+            book[BRAKED] -= kicked / particles.body[k, inverse] * dot(taken, v)
 
 
 @inlined
@@ -241,15 +242,15 @@ def move_after_forces(
     scratch: Floats,
     time: float,
     book: Floats,
-    span: float,
 ) -> None:
     """Compute accelerations, kick, and drift to the end of the stage; book the work of what acts from outside."""
     dt = numbers.dt
+    kicked = (stage.kick_before + stage.kick_after) * dt
     for k in range(begin, end):
         accelerate(particles, k, numbers, time)
         if BRAKES:
-            brake(particles, k, numbers, book, span)
-        book_outside_work(particles, k, numbers, time, book, span)
+            brake(particles, k, numbers, book, kicked)
+        book_outside_work(particles, k, numbers, time, book, kicked)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)
         if stage.drift_after != 0.0:

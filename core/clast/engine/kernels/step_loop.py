@@ -124,7 +124,7 @@ def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Sta
     numbers, chunks = world.numbers, world.chunks
     for c in range(begin, end):
         scratch, book = world.scratch[c], world.ledger[c]
-        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book, span)
+        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book)
     if STRETCHES and first:
         at, _ = until_next_forces(world.clock)
         stretch_box(box_of(world.particles), time + (at + stage.drift_after) * numbers.dt)
