@@ -76,7 +76,7 @@ def test_a_condition_on_the_stress_of_a_scene_without_plates_is_refused_where_it
 
 STAGED = """walls.upper.motion=[
   {type: constant_velocity, velocity: [0, 0, -20 mm/s], until: {type: force, wall: upper, above: 0.5 N}},
-  {type: table, direction: [0, 0, 1], velocity: [[0, 10 mm/s], [1 ms, 20 mm/s]], until: {type: elapsed, time: 0.2 ms}},
+  {type: constant_velocity, velocity: [0, 0, 10 mm/s], until: {type: elapsed, time: 0.2 ms}},
   {type: constant_velocity, velocity: [0, 0, 20 mm/s], until: {type: force, wall: upper, below: 0.1 N}}]"""
 ENDED = ["stop=[{type: stages_over, wall: upper}]", "time.end={time: 5 ms}", "output.writers=[]", "output.samples=400"]
 
