@@ -19,6 +19,7 @@ from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
 from clast.scene.foretold import bonded_gaps, foretold
+from clast.scene.narrow_plates import narrow_plates
 from clast.scene.rooms import open_faces
 from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
@@ -131,6 +132,7 @@ def forecast(config: SceneConfig) -> Forecast:
         notes=step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
         concerns=(
             *(text for each in zip(config.generators, told, strict=True) for text in open_faces(config, *each)),
+            *narrow_plates(config, 2.0 * float(sample.radius.min())),
             *time_concerns(config, steps, seconds),
             *_memory_concerns(config, memory),
             *size_concerns(config, particles, count),

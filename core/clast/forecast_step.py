@@ -10,7 +10,15 @@ import numpy as np
 from clast.config.scene import SceneConfig
 from clast.config.sections import StepRule
 from clast.engine.damped_step import stable_step
-from clast.engine.time_step import asked_step, bond_limit, contact_limit, local_limit, pair_limit, rayleigh_limit
+from clast.engine.time_step import (
+    asked_step,
+    bond_limit,
+    contact_limit,
+    drag_limit,
+    local_limit,
+    pair_limit,
+    rayleigh_limit,
+)
 from clast.parts.generator import Estimate
 from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients
 from clast.scene.scatter import Factors, draw_factors, scatter_entries
@@ -50,17 +58,19 @@ def time_step(sample: Scene, coordination: float | None) -> float:
         Two neighbours alone are unstable with it, and so is every scene they are in.
     """
     config, contact = sample.config, contact_limit(sample)
-    spectral = local_limit(sample) if coordination is None else packed_limit(sample, coordination)
+    drag = drag_limit(sample)
+    spectral = local_limit(sample) if coordination is None else min(packed_limit(sample, coordination), drag)
     if config.time.selective_mass_scaling is not None:
         spectral = max(spectral, config.time.selective_mass_scaling)
     step = asked_step(config, min(rayleigh_limit(sample), bond_limit(sample)), spectral, contact)
     pair = pair_limit(sample) if config.time.selective_mass_scaling is None else math.inf
-    most = min(pair, 10.0 * contact)
+    most = min(pair, 10.0 * contact, drag)
     if step > most and not config.time.allow_unstable:
+        what = "a particle in its body_forces alone is" if most == drag else "two neighbours alone are"
         raise config.problem(
             ("time", "step"),
-            f"{step:.4g} s is above {most:.4g} s, with which two neighbours alone are unstable; take a smaller step, "
-            "raise time.mass_scaling, or set time.allow_unstable",
+            f"{step:.4g} s is above {most:.4g} s, with which {what} unstable; take a smaller step, raise "
+            "time.mass_scaling, or set time.allow_unstable",
         )
     return step
 

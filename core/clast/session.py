@@ -115,7 +115,7 @@ def refuse_passed_end(simulation: Simulation) -> None:
         place = simulation.config.document.where(("time", "end"))
         raise RunError(
             f"{place}: time.end: the run is at step {simulation.step} already, and would end at step "
-            f"{simulation.last_step}; to end it where it is add --set 'time.end={{steps: {simulation.step}}}'"
+            f"{simulation.last_step}; to end it where it is, add --set 'time.end={{steps: {simulation.step}}}'"
         )
 
 

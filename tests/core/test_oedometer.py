@@ -284,7 +284,7 @@ def test_a_section_is_given_once(given: dict[str, float]) -> None:
     [
         (
             0.7 * R,
-            r"walls.piston leaves a gap of 0.42\d mm to walls.tube: particles of 0.2 mm slip past it; make it wider",
+            r"walls.piston leaves room for balls of 0.42\d? mm to walls.tube: particles of 0.2 mm slip past it; make",
         ),
         (0.9 * R, None),
         (None, None),
@@ -302,10 +302,10 @@ def test_a_plate_that_particles_slip_past_is_pointed_out(radius: float | None, s
     [
         ("tub", "compression.side: there is no wall 'tub'; did you mean 'tube'?"),
         ("piston", "compression.side: the side must be another wall than upper and lower"),
-        ("lid", "compression.side: walls.lid is a plane, which surrounds nothing by itself; name a wall such as"),
-        (["tube", "lid"], "compression.side: walls.tube is a cylinder, which surrounds nothing by itself"),
+        ("lid", "compression.side: walls.lid is a plane, of which girth and section are not known; name a wall such"),
+        (["tube", "lid"], "compression.side: walls.tube is a cylinder, and only infinite planes surround"),
         (["lid", "tub"], "compression.side: there is no wall 'tub'; did you mean 'tube'?"),
-        (["lid", "lid"], "compression.side: walls.lid, walls.lid: planes around must be parallel to the line between"),
+        (["lid", "lid"], "compression.side: 'lid' is named twice; name every wall around once"),
     ],
 )
 def test_a_side_that_cannot_be_is_refused(side: str | list[str], said: str) -> None:

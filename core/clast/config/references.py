@@ -86,6 +86,9 @@ def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
         yield Problem(("compression", "lower"), "upper and lower must be two different walls")
     if any(name is not None and name in (compression.get("upper"), compression.get("lower")) for name in sides):
         yield Problem(("compression", "side"), "the side must be another wall than upper and lower")
+    twice = [name for k, name in enumerate(sides) if name is not None and name in sides[:k]]
+    if twice:
+        yield Problem(("compression", "side"), f"{twice[0]!r} is named twice; name every wall around once")
     end = _section(_section(data, "time"), "end")
     if "strain" in end and not compression and not _unreadable(data, "compression"):
         yield Problem(

@@ -68,6 +68,7 @@ _NAMES: dict[Dimension, tuple[str, str]] = {
     (2, 1, -2, 0): ("an energy or moment", "5 N mm"),
     (0, 1, -2, 0): ("a stiffness", "5 N/mm"),
     (0, 0, -1, 0): ("a rate", "5 1/s"),
+    (-1, 1, -1, 0): ("a viscosity", "1 mPa s"),
 }
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _FACTOR = re.compile(r"(1|%|[A-Za-z]+)(?:(?:\^|\*\*)?([+-]?\d))?", re.ASCII)
@@ -107,7 +108,7 @@ def describe_dimension(dimension: Dimension) -> str:
     if dimension in _NAMES:
         return _NAMES[dimension][0]
     powers = zip(("m", "kg", "s", "rad"), dimension, strict=True)
-    return "of the unit " + " ".join(f"{name}^{power}" for name, power in powers if power)
+    return "a quantity of the unit " + " ".join(f"{name}^{power}" for name, power in powers if power)
 
 
 def si_unit(dimension: Dimension) -> str:

@@ -90,6 +90,14 @@ def local_limit(scene: Scene) -> float:
     return _local(springs_at_start(scene, plan), bodies_at_start(scene), plan.damping_factor)
 
 
+def drag_limit(scene: Scene) -> float:
+    """Return the largest step in s that is stable with the dashpots of body forces alone; infinite without any."""
+    from clast.engine.springs import bodies_at_start, drag_springs
+
+    bodies = bodies_at_start(scene)
+    return _local(drag_springs(scene, bodies, scene.velocity), bodies, blueprint(scene).damping_factor)
+
+
 def _local(springs: Springs, bodies: Bodies, factor: Callable[[float], float]) -> float:
     from clast.engine.damped_step import stable_step
     from clast.engine.local_bounds import local_bounds
@@ -182,7 +190,9 @@ def choose_step(scene: Scene, found: Limits) -> float:
     """
     step = asked_step(scene.config, found.paper, found.spectral, found.contact)
     if step > found.stable and not scene.config.time.allow_unstable:
-        cause = "bonds and contacts" if found.spectral == found.stable else "impacts"
+        dragged = any(chosen.part.damping is not None for chosen in scene.config.body_forces)
+        held = "bonds, contacts and body forces" if dragged else "bonds and contacts"
+        cause = held if found.spectral == found.stable else "impacts"
         raise scene.config.problem(
             ("time", "step"),
             f"{step:.4g} s is above the stability limit of the {cause}, {found.stable:.4g} s; take a smaller step, "

@@ -156,11 +156,13 @@ def identity(simulation: Simulation) -> dict[str, Any]:
 
 
 def flat(tree: Any, path: str = "") -> dict[str, Any]:
-    """Return a nested mapping as one level with dotted keys.
+    """Return a nested mapping as one level with dotted keys; lists of numbers stay as they are.
 
-    >>> flat({"a": {"b": 1}, "c": 2})
-    {'a.b': 1, 'c': 2}
+    >>> flat({"a": [{"b": 1}], "c": [2, 3]})
+    {'a.0.b': 1, 'c': [2, 3]}
     """
+    if isinstance(tree, list) and any(isinstance(each, dict | list) for each in tree):
+        tree = dict(enumerate(tree))
     if not isinstance(tree, dict):
         return {path: tree}
     found: dict[str, Any] = {}

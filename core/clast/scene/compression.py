@@ -18,7 +18,7 @@ from clast.scene.side_walls import SideWalls, side_walls
 Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
 MOST_OFF = 0.01
-"""Share by which the height of a compression with a side, and the width of its section, may differ from the walls'."""
+"""Share by which height and diameter, or area, of a compression with a side may differ from those of the walls."""
 
 
 class SideReading(NamedTuple):
@@ -96,7 +96,10 @@ class Gauge:
     def _refuse_another_section(self, side: SideWalls) -> None:
         pressed = self.config.compression
         assert pressed is not None
-        if side.section is None or abs((side.section / self.area) ** 0.5 - 1.0) <= MOST_OFF:
+        if side.section is None:
+            return
+        share = side.section / self.area
+        if abs((share if pressed.diameter is None else share**0.5) - 1.0) <= MOST_OFF:
             return
         if pressed.diameter is not None:
             key, given = "diameter", f"{1e3 * pressed.diameter:.5g} mm"

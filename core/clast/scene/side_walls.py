@@ -85,11 +85,9 @@ def side_walls(config: SceneConfig, axis: Floats) -> SideWalls | None:
         return SideWalls(numbers, float(first.part.girth(first.params)), section, f"walls.{names[0]} has")
     for name, shape in zip(names, shapes, strict=True):
         if len(shapes) == 1 or not shape.part.flat(shape.params):
-            text = (
-                f"walls.{name} is a {shape.name}, which surrounds nothing by itself; name a wall such as a cylinder, "
-                "or all infinite planes around"
-            )
-            raise config.problem(("compression", "side"), text)
+            alone, together = "of which girth and section are not known", "and only infinite planes surround together"
+            text = f"walls.{name} is a {shape.name}, {alone if len(shapes) == 1 else together}; name a wall such as a "
+            raise config.problem(("compression", "side"), f"{text}cylinder, or all infinite planes around")
     planes = [_plane(shape) for shape in shapes]
     try:
         area, girth = inside_planes(planes, axis)

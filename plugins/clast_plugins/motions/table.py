@@ -53,7 +53,10 @@ class Table(Params):
     direction: Annotated[Direction, Field(examples=[[0, 0, -1]], description="Direction that values count along")]
     displacement: Annotated[
         tuple[tuple[Time, Length], ...] | None,
-        Field(examples=[[[0, 0], ["1 s", "0.2 mm"], ["2 s", 0]]], description="Rows [time, displacement]"),
+        Field(
+            examples=[[[0, 0], ["1 s", "0.2 mm"], ["2 s", 0]]],
+            description="Rows [time, displacement]; the first is 0",
+        ),
     ] = None
     velocity: Annotated[tuple[tuple[Time, Velocity], ...] | None, Field(description="Rows [time, velocity]")] = None
     file: Annotated[

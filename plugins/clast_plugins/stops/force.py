@@ -45,6 +45,9 @@ class WallForce(Params):
         if (self.above is None) == (self.below is None):
             given = "both" if self.above is not None else "neither"
             raise ValueError(f"exactly one of above and below is needed; given {given}")
+        bound = self.above if self.above is not None else self.below
+        if self.direction is None and bound is not None and bound < 0.0:
+            raise ValueError(f"the length of a force is never {bound:g} N; give a direction for its sign")
         return self
 
 

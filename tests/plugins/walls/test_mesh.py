@@ -99,8 +99,11 @@ BARE = text_of([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 1, 1], [2, 2,
     ("content", "told"),
     [
         (None, "wall.stl: cannot be read: No such file or directory; check the path"),
-        ("", "wall.stl: is no STL file, neither text nor binary, or holds no triangle"),
-        ("name: not a surface\n" * 30, "wall.stl: is no STL file"),
+        ("", "wall.stl: is no STL file, neither text nor binary; export it again"),
+        ("name: not a surface\n" * 30, "cut off, or no STL file; export it again"),
+        (BARE.replace("vertex 1 1 1", "vertex 1,0 1 1"), "wall.stl:12: 'vertex 1,0 1 1' is no corner"),
+        (BARE[: BARE.index("vertex 2 2 2")], "wall.stl: tells of 2 triangles and holds 5 corners: cut off"),
+        (BARE.replace("vertex 2 2 2", "vertex 2e39 2 2"), "triangle 1 has a corner that is no place"),
         (BARE, "wall.stl: triangle 1, counted from 0, has no area; repair the surface"),
     ],
 )
