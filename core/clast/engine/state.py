@@ -104,7 +104,8 @@ class Walls(NamedTuple):
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
     flat; ``lists`` holds what shapes and courses have of any length. ``begun`` (w,) is when the present stage of each
     wall's motion began in s, ``stage`` (w, 2) its number and that of the sample at which it began.
-    ``slots`` (w,) is the most contacts of a particle with each wall, ``places`` (2 slots, 4) room to find them.
+    ``slots`` (w,) is the most contacts of a particle with each wall, ``places`` (2 slots + 1, 4) room to find them, and
+    ``crowded`` (w,) is 1 for walls that a particle touched in more places.
     """
 
     shape_kind: Integers
@@ -127,6 +128,7 @@ class Walls(NamedTuple):
     stage: Integers
     slots: Integers
     places: Floats
+    crowded: Bytes
 
 
 class Cracks(NamedTuple):

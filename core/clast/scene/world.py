@@ -166,7 +166,8 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         lists=rows.lists,
         stage=np.zeros((len(chosen), 2), np.int64),
         slots=slots,
-        places=np.zeros((2 * int(slots.max(initial=1)), 4)),
+        places=np.zeros((2 * int(slots.max(initial=1)) + 1, 4)),
+        crowded=np.zeros(len(slots), np.uint8),
         **{name: np.zeros((len(chosen), 3)) for name in ("displacement", "velocity", "reference", *SUMMED)},
         **{name: np.zeros(len(chosen)) for name in ("pressing", "pressing_sum", "begun")},
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from clast.engine.blueprint import Blueprint
 from clast.engine.state import World
 from clast.scene.scene import Scene
+from clast.soundness.crowded import crowded
 from clast.soundness.energy import EnergyWatch
 from clast.soundness.impacts import ImpactsAhead
 from clast.soundness.motion import lost, passed_through, round_the_other_way, too_fast
@@ -36,7 +37,7 @@ class Soundness:
 
     def complaint(self, world: World, dt: float) -> str | None:
         """Return what cannot be followed with steps of ``dt`` seconds; None if all can."""
-        found = self.motion_complaint(world, dt)
+        found = self.motion_complaint(world, dt) or crowded(world, self.scene)
         if found is not None:
             return found
         near = Nearness(world, self.gaps)

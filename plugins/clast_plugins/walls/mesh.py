@@ -53,7 +53,8 @@ class Mesh(Params):
     ------
     Faces that meet at less than 0.06° count as flat, and gaps below a thousandth of the radius as closed, as STL files
     hold single precision. Contacts count as contacts with a flat wall, at ridges and tips too. A particle has at most
-    ``contacts`` contacts with the wall at a time, the deepest; a sphere in a funnel of 24 faces has 24. Round surfaces
+    ``contacts`` contacts with the wall at a time; a run in which it touches more stops. A sphere in a funnel of 24 faces
+    has 24. Round surfaces
     are what the file makes of them: faces should not be much smaller than contacts, or a hollow is touched in several
     places where a round one is touched once. A particle whose centre passes the surface is pushed out behind: overlaps
     must stay small, as always. The wall may move, but does not turn.
@@ -79,7 +80,7 @@ class Mesh(Params):
     ] = None
     origin: Annotated[Point, Field(description="Where the origin of file or triangles lies in the scene")] = ZERO
     contacts: Annotated[
-        int, Field(ge=1, le=64, description="Most contacts that a particle has with the wall at a time")
+        int, Field(ge=2, le=64, description="Most contacts that a particle has with the wall at a time")
     ] = 8
 
     @model_validator(mode="after")

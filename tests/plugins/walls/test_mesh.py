@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from clast.config.scene import load
 from clast.engine.wall_feet import Feet, feet
-from clast.errors import ConfigError
+from clast.errors import ConfigError, RunError
 from clast.maths.vec3 import Vec
 from clast.plugins.discovery import discover
 from clast.results import checkpoint
@@ -145,3 +145,10 @@ def test_contacts_on_triangles_go_on_from_a_checkpoint_to_the_same_bytes(tmp_pat
     for (name, one), (_, other) in zip(checkpoint.state_arrays(whole), checkpoint.state_arrays(resumed), strict=True):
         assert one.tobytes() == other.tobytes(), name
     assert abs(whole.ledger().closure) < 1e-3
+
+
+def test_a_particle_in_more_places_than_it_may_have_contacts_stops_the_run() -> None:
+    simulation = Bench("mesh").start({"walls.funnel.contacts": 4}, threads=1)
+    told = "touches walls.funnel in more than 4 places, and others would push nothing; raise walls.funnel.contacts"
+    with pytest.raises(RunError, match=told):
+        simulation.advance_to(12_000)

@@ -49,10 +49,14 @@ def share_out(particles: Particles, walls: Walls, pairs: WallPairs, first: int, 
     """
     w, k = pairs.wall[first], pairs.particle[first]
     slots = walls.slots[w]
-    given, found = walls.places[:slots], walls.places[slots : 2 * slots]
+    given, found = walls.places[:slots], walls.places[slots : 2 * slots + 1]
     for s in range(slots):
         given[s, 0] = inf
     count = wall_touches(walls, w, seen_from_wall(particles, walls, k, w), reach, found)
+    if count > slots:
+        if found[slots, 0] < particles.pose[k, RADIUS]:
+            walls.crowded[w] = 1
+        count = slots
     if REMEMBERS:
         for _ in range(count):
             s, c = best_match(pairs, first, given, found, count)
