@@ -53,11 +53,10 @@ class Mesh(Params):
     ------
     Faces that meet at less than 0.06° count as flat, and gaps below a thousandth of the radius as closed, as STL files
     hold single precision. Contacts count as contacts with a flat wall, at ridges and tips too. A particle has at most
-    ``contacts`` contacts with the wall at a time; a run in which it touches more stops. A sphere in a funnel of 24 faces
-    has 24. Round surfaces
-    are what the file makes of them: faces should not be much smaller than contacts, or a hollow is touched in several
-    places where a round one is touched once. A particle whose centre passes the surface is pushed out behind: overlaps
-    must stay small, as always. The wall may move, but does not turn.
+    ``contacts`` contacts with the wall at a time; a run in which it touches more stops. In a funnel of 24 faces a
+    sphere has 24. Round surfaces are what the file makes of them: faces should not be much smaller than contacts, or a
+    hollow is touched in several places where a round one is touched once. A particle whose centre passes the surface is
+    pushed out behind: overlaps must stay small, as always. The wall may move, but does not turn.
 
     Source
     ------
