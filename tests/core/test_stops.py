@@ -129,9 +129,13 @@ def force_on_the_plate(simulation):
         ("[{type: constant_velocity, velocity: [0, 0, 1], untill: force}]",
          r"walls.upper.motion.0.untill: not a known key; did you mean 'until'"),
         ("[{type: constant_velocity, velocity: [0, 0, 1], until: {type: force, wall: uper, above: 1 N}}]",
-         r"walls.upper.motion.until: force looks at 'force_uper_x_N', which the curves of this scene lack; did you"),
+         r"walls.upper.motion.until.wall: there is no wall 'uper'; did you mean 'upper'"),
         ("{type: constant_velocity, velocity: [0, 0, 1], until: {type: strain, strain: 0.1}}",
          r"walls.upper.motion.until: strain looks at strain or stress, and the scene has no compression"),
+        ("[{type: constant_velocity, velocity: [0, 0, 1], until: {type: stages_over, wall: upper}}]",
+         r"walls.upper.motion.until: stages_over waits for the end of the stages that it ends one of"),
+        ("{type: constant_velocity, velocity: [0, 0, 1], until: {type: force, wall: upper, above: -1 N}}",
+         r"walls.upper.motion.until: the length of a force is never -1 N; give a direction for its sign"),
         ("{type: constant_velocity, velocity: [0, 0, 1], until: {type: force, wall: upper}}",
          r"walls.upper.motion.until: exactly one of above and below is needed; given neither"),
     ],
@@ -149,5 +153,5 @@ def test_a_strain_at_the_end_of_stages_is_refused_as_nobody_knows_when(tmp_path)
 
 
 def test_a_wall_that_has_no_stages_has_none_to_be_over(tmp_path):
-    with pytest.raises(ConfigError, match=r"stop.0: stages_over looks at 'stage_upper', which the curves"):
+    with pytest.raises(ConfigError, match=r"stop.0.wall: the motion of walls.upper has no stage that ends"):
         load(write(tmp_path, CRUSH), ["stop=[{type: stages_over, wall: upper}]"])

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from clast.config.columns import known_columns
 from clast.config.document import Problem
+from clast.errors import KeyPath
 from clast.plugins.nearest import suggestion
 
 if TYPE_CHECKING:
+    from clast.config.choice import Chosen
     from clast.config.scene import SceneConfig
 
 
@@ -23,7 +25,26 @@ def blind_conditions(scene: SceneConfig) -> Iterator[Problem]:
                 f"{each.name} looks at strain or stress, and the scene has no compression; add one with its two "
                 "plates, or take another condition",
             )
-        for name in each.part.reads(each.params):
-            if name not in known:
-                text = f"{each.name} looks at {name!r}, which the curves of this scene lack"
-                yield Problem(path, f"{text}; {suggestion(name, known)}")
+        yield from _blind(scene, path, each, known)
+
+
+def _blind(scene: SceneConfig, path: KeyPath, condition: Chosen, known: set[str]) -> Iterator[Problem]:
+    """Yield the first column that a condition looks at and the curves lack; where it names a wall, by its name."""
+    own = f"stage_{path[1]}" if path[0] == "walls" else ""
+    if own in condition.part.reads(condition.params):
+        yield Problem(
+            path, f"{condition.name} waits for the end of the stages that it ends one of; take another condition"
+        )
+        return
+    lacking = [name for name in condition.part.reads(condition.params) if name not in known]
+    if not lacking:
+        return
+    wall = getattr(condition.params, "wall", None)
+    if isinstance(wall, str) and wall not in scene.walls:
+        yield Problem((*path, "wall"), f"there is no wall {wall!r}; {suggestion(wall, scene.walls)}")
+    elif isinstance(wall, str) and lacking[0].startswith("stage_"):
+        text = f"the motion of walls.{wall} has no stage that ends; give its stages, each with 'until'"
+        yield Problem((*path, "wall"), text)
+    else:
+        text = f"{condition.name} looks at {lacking[0]!r}, which the curves of this scene lack"
+        yield Problem(path, f"{text}; {suggestion(lacking[0], known)}")

@@ -51,7 +51,8 @@ def _goes_on(stop: Stop, params: Any, own: tuple[str, ...]) -> None:
 
 def _answers(stop: Stop, params: Any, given: Curves) -> None:
     told = stop.reached(params, given)
-    must(told is None or (isinstance(told, str) and bool(told)), lambda: f"it answers {told!r} to {given}")
+    sound = told is None or (isinstance(told, str) and bool(told))
+    must(sound, lambda: f"it answers {told!r}, where None or a sentence is needed")
 
 
 def _pure(stop: Stop, params: Any, given: Curves) -> None:
