@@ -38,10 +38,10 @@ def test_a_run_is_neither_overwritten_nor_gone_on_with_by_another_scene() -> Non
     assert said(clast("run", "one.yaml", "-o", "run"), exit_code=1) == (
         "run: holds a run already; add --resume to go on with it, or choose another folder with -o"
     )
-    refused = clast("run", "one.yaml", "-o", "run", "--resume", "--set", "time.end.time=5e-4")
+    refused = clast("run", "one.yaml", "-o", "run", "--resume", "--set", "contacts.pairs.default.restitution=0.6")
     assert "building" not in refused.stdout
     assert said(refused, exit_code=1).startswith(
-        "run/checkpoint.h5: belongs to another scene, so it cannot be resumed (time.end.time: 0.0004"
+        "run/checkpoint.h5: belongs to another scene, so it cannot be resumed (contacts.pairs.default.restitution: 0.5"
     )
     for name in ("checkpoint.h5", "checkpoint.previous.h5"):
         Path("run", name).write_bytes(b"torn")

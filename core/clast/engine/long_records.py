@@ -18,9 +18,7 @@ def construct_long(record: type, name: str) -> str:
 
     >>> from typing import NamedTuple
     >>> from numpy.typing import NDArray
-    >>> class Course(NamedTuple):
-    ...     way: tuple[float, float]
-    ...     times: NDArray[np.float64]
+    >>> Course = NamedTuple("Course", [("way", tuple[float, float]), ("times", NDArray[np.float64])])
     >>> construct_long(Course, "Course")
     'Course((row[0], row[1],), lists[int(row[2]) : int(row[3])])'
     """

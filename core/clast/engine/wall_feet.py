@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.compiler import STRICT
 from clast.parts.wall import Wall
 
 Floats = NDArray[np.float64]
@@ -63,6 +62,7 @@ def _compiled(touches: Callable[..., int]) -> Callable[..., None]:
     from numba import njit
 
     from clast.engine.assemble import let_compiled_code_call
+    from clast.engine.compiler import STRICT
 
     let_compiled_code_call([touches])
     compiled: Callable[..., None] = njit(**STRICT)(_plain(touches))

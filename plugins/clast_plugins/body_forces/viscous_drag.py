@@ -86,7 +86,7 @@ def load(numbers: Numbers, x: Vec, v: Vec, w: Vec, radius: float, time: float) -
 
     >>> water = Numbers(1.0 / (2.0 * pi), 0.0, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0.0))
     >>> load(water, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.5, 0.0)
-    ((-1.5, -0.0, -0.0), (-0.0, -0.0, -0.5))
+    ((-1.5, 0.0, 0.0), (0.0, 0.0, -0.5))
     """
     slip = sub(numbers.velocity, v)
     drag = 6.0 * pi * numbers.viscosity * radius

@@ -163,7 +163,7 @@ def place(course: Course, time: float) -> float:
     """Return the displacement at a time in m.
 
     >>> up_and_down = course(Table(direction=(0, 0, 1), displacement=((0, 0), (1, 2), (2, 0))))
-    >>> [place(up_and_down, time) for time in (0.5, 1.5, 7.0)]
+    >>> [float(place(up_and_down, time)) for time in (0.5, 1.5, 7.0)]
     [1.0, 1.0, 0.0]
     """
     turns, over = 0.0, 0.0

@@ -95,7 +95,7 @@ SPOILED = [
     ),
     (
         "body_force",
-        "the acceleration is a number",
+        "what it does is a number",
         "scale(-known.omega2, sub(x, known.centre))",
         "scale(float('inf'), sub(x, known.centre))",
     ),
