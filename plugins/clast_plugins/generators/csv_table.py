@@ -131,7 +131,7 @@ def split(path: Path, lines: list[str]) -> Table:
     Raises
     ------
     ConfigError
-        A quote is not closed, or columns are parted by semicolons.
+        A quote is not closed, or columns are separated by semicolons.
     """
     columns: list[str] = []
     table = Table(path, columns, [])
@@ -148,7 +148,9 @@ def split(path: Path, lines: list[str]) -> Table:
         if not columns:
             columns += cells
             if len(cells) == 1 and ";" in cells[0]:
-                raise ConfigError(f"{path}:{reader.line_num}: columns are parted by ';'; write commas", at=None)
+                raise ConfigError(
+                    f"{path}:{reader.line_num}: columns are separated by ';'; they must be separated by commas", at=None
+                )
         elif len(cells) > len(columns):
             table.wrong(reader.line_num, f"{len(cells)} values for {len(columns)} columns ({','.join(columns)})")
         else:
