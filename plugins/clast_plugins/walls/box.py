@@ -15,7 +15,7 @@ from clast.maths.vec3 import Vec
 from clast.parts.params import Params
 from clast.parts.wall import Wall
 from clast.plugins.registry import Registry
-from clast_plugins.walls.mesh import Shape, laid_out, nearest, touches
+from clast_plugins.walls.mesh import Shape, drawn, laid_out, nearest, touches
 
 FACES = ("left", "right", "front", "back", "bottom", "top")
 """Those with the smallest and the largest x, y and z."""
@@ -94,8 +94,7 @@ def centre(params: Box) -> Vec:
 
 def mesh(params: Box, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return all corners and triangles."""
-    corners = triangles(params).reshape(-1, 3)
-    return corners, np.arange(len(corners)).reshape(-1, 3)
+    return drawn(triangles(params))
 
 
 @hookimpl

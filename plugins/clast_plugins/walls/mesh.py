@@ -237,8 +237,12 @@ def centre(params: Mesh) -> Vec:
 
 def mesh(params: Mesh, size: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return all corners and triangles."""
-    corners = surface(params).reshape(-1, 3)
-    return corners, np.arange(len(corners)).reshape(-1, 3)
+    return drawn(surface(params))
+
+
+def drawn(triangles: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return triangles, (t, 3, 3) in m, as corners (3 t, 3) and their numbers (t, 3)."""
+    return triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3)
 
 
 @hookimpl
