@@ -220,7 +220,7 @@ class Blueprint:
             for function in (motion.velocity, motion.way, motion.answer, motion.start)
         ]
         found += [function for force in self.body_forces for function in (force.acceleration, force.load)]
-        found += [self.damping.braking] if self.damping is not None else []
+        found += [self.damping.braking, self.damping.steering] if self.damping is not None else []
         return [function for function in found if function is not None]
 
 

@@ -1,7 +1,7 @@
 """Chunks: the runs of particles that one thread handles at a time, cut by the scene and never by the thread count.
 
 Whatever joins two chunks (a bond, a contact) is kept by both and loads its own end in each: the same arithmetic on the
-same numbers, so both copies stay the same to the bit, and no sum ever crosses threads.
+same numbers, so both copies stay the same to the bit, and no sum of loads crosses threads.
 """
 
 from __future__ import annotations

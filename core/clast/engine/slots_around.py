@@ -73,8 +73,12 @@ def body_text(plan: Blueprint) -> str:
 def damping_text(plan: Blueprint) -> str:
     """Return what binds the damping of motion of a scene."""
     if plan.damping is None:
-        return "braking = nothing"
+        return "braking = steering = nothing"
     values = [f"row[{n}]" for n in range(width(plan.damping.Numbers))]
     lines = [bind("brake", plan.damping.braking), bind_record("Brake", plan.damping.Numbers)]
-    text = f"return brake({construct(plan.damping.Numbers, 'Brake', values)}, acceleration, velocity)"
-    return "\n".join([*lines, function("braking", "row, acceleration, velocity", text)])
+    known = construct(plan.damping.Numbers, "Brake", values)
+    if plan.damping.steering is None:
+        braking = function("braking", "row, acceleration, velocity", f"return brake({known}, acceleration, velocity)")
+        return "\n".join([*lines, "steering = nothing", braking])
+    steering = function("steering", "row, together", f"return steer({known}, together)")
+    return "\n".join([*lines, "braking = brake", bind("steer", plan.damping.steering), steering])

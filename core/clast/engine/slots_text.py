@@ -93,6 +93,7 @@ def _flags(plan: Blueprint) -> str:
         "BODY_FORCES": any(force.acceleration is not None for force in plan.body_forces),
         "BODY_LOADS": plan.body_loads,
         "BRAKES": plan.damping is not None,
+        "STEERS": plan.damping is not None and plan.damping.steering is not None,
         "APPLIED_LOADS": plan.applied_loads,
         "LEDGER": plan.ledger,
         "ROLLS": contacts is not None and contacts.features.rolling,

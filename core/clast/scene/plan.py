@@ -26,10 +26,12 @@ def blueprint(scene: Scene) -> Blueprint:
     Raises
     ------
     ConfigError
-        Energies shall be booked that the integrator does not let one book.
+        Energies shall be booked that the integrator does not let one book, or all particles be steered between its
+        evaluations of forces.
     """
     config = scene.config
     refuse_ledger(config)
+    refuse_steering(config)
     return Blueprint(
         integrator=config.integrator.part,
         bonds=_bond_plan(scene),
@@ -62,6 +64,24 @@ def refuse_ledger(config: SceneConfig) -> None:
             ("output", "ledger"),
             f"the integrator {config.integrator.name!r} evaluates forces {len(config.integrator.part.stages)} times a "
             "step, and energies can be booked only where it is once; take another integrator, or ledger: false",
+        )
+
+
+def refuse_steering(config: SceneConfig) -> None:
+    """Refuse a damping that steers all particles with an integrator that evaluates forces several times a step.
+
+    Such a scheme goes back and forth within a step: work at one of its evaluations does not tell which way it leads.
+
+    Raises
+    ------
+    ConfigError
+    """
+    damping, stages = config.damping, len(config.integrator.part.stages)
+    if damping is not None and damping.part.steering is not None and stages > 1:
+        raise config.problem(
+            ("damping",),
+            f"{damping.name!r} steers all particles once a step, and the integrator {config.integrator.name!r} "
+            f"evaluates forces {stages} times; take another integrator, or the damping 'local'",
         )
 
 

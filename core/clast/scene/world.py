@@ -9,6 +9,7 @@ from clast.engine.cache_lines import on_line, on_lines
 from clast.engine.chunks import cut
 from clast.engine.kernels.layout import (
     BOND_SCRATCH,
+    CLOCK,
     CONTACT_FREE,
     INVERSE_INERTIA,
     INVERSE_MASS,
@@ -59,7 +60,7 @@ def build_world(scene: Scene, plan: Blueprint, dt: float, skin: float) -> World:
         walls=_walls(scene, plan),
         cracks=crack_table(chunks, scene.ends),
         numbers=_numbers(scene, plan, uniforms, particles, dt, skin),
-        clock=np.zeros(4, np.int64),
+        clock=np.zeros(CLOCK, np.int64),
         chunks=chunks,
         stale=np.zeros(len(chunks), np.uint8),
         scratch=on_line(np.zeros((len(chunks) - 1, _scratch_slots(plan) * LANES))),

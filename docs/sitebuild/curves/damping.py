@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from clast.maths.vec3 import Vec
 from clast.parts.damping import Damping
 from clast.parts.params import Params
+from clast.testing.damping import added
 
 Floats = NDArray[np.float64]
 PERIODS, STEPS = 8, 400
@@ -35,9 +35,10 @@ def let_go(part: Damping, params: Params) -> tuple[Floats, Floats]:
     numbers, dt = part.numbers(params), 1.0 / STEPS
     time = dt * np.arange(PERIODS * STEPS + 1)
     x, v, places = 1.0, 0.0, [1.0]
-    for _ in time[1:]:
-        pull: Vec = (-RATE * RATE * x, 0.0, 0.0)
-        v += dt * (pull[0] + part.braking(numbers, pull, (v, 0.0, 0.0))[0])
+    for step in range(len(time) - 1):
+        pull = -RATE * RATE * x
+        (more,) = added(part, numbers, [(pull, 0.0, 0.0)], [(v, 0.0, 0.0)], dt, step)
+        v += dt * (pull + more[0])
         x += dt * v
         places.append(x)
     return np.asarray(time, np.float64), np.array(places)

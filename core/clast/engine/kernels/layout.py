@@ -46,11 +46,13 @@ BOND_VISCOUS, PLASTIC, DROPS, BROKEN = 4, 5, 6, 7
 WALL_WORK, DRIVEN_WORK, APPLIED_WORK, BODY_WORK = 8, 9, 10, 11
 LEFT, START, WOKEN, BRAKED = 12, 13, 14, 15
 BOX_WORK, BOX_POWER = 16, 17  # work of a box that is stretched, and its power at the last evaluation of forces
+POWER, MOTION, FORCE = 18, 19, 20  # of a chunk's particles together, as in ``clast.parts.damping.Together``
 TERMS = 24  # whole cache lines: each chunk has a row, which its thread writes
 
 # scratch of turning
 TURN_Q, TURN_W = 0, 4
 
-# clock
-STEP, STAGE, MOVED, PRIMED = 0, 1, 2, 3
+# clock; DOWNHILL counts how often in a row forces did work on all particles together, for dampings that ask
+STEP, STAGE, MOVED, PRIMED, DOWNHILL = 0, 1, 2, 3, 4
+CLOCK = 5
 DONE, STALE = 0, 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles
 from clast.maths.rotation import turn
@@ -39,6 +41,7 @@ from .slots import (
     ORIENTATION,
     SPIN,
     STAGES,
+    STEERS,
     STRETCHES,
     VELOCITY_FORCES,
     body_acceleration,
@@ -217,15 +220,17 @@ def accelerate(particles: Particles, k: int, numbers: Numbers, time: float) -> N
 
 
 @inlined
-def brake(particles: Particles, k: int, numbers: Numbers, book: Floats, kicked: float) -> None:
+def brake(particles: Particles, k: int, numbers: Numbers, how: Any, book: Floats, kicked: float) -> None:
     """Change the acceleration of particle k by the damping of motion; book its heat.
 
-    The heat is at the same velocities as the work from outside: see ``book_outside_work``.
+    The heat is at the same velocities as the work from outside: see ``book_outside_work``. ``how`` is what the damping
+    is told: its numbers, or how it steers all particles.
     """
     acceleration, half = particles.acceleration, half_kick(numbers.dt)
+    velocity = particles.twist if STEERS else particles.seen
     for inverse, first in ((INVERSE_MASS, F), (INVERSE_INERTIA, M)):
         if particles.body[k, inverse] > 0.0 and (first == F or SPIN):
-            taken = braking(numbers.braking, row(acceleration, k, first), row(particles.seen, k, first))
+            taken = braking(how, row(acceleration, k, first), row(velocity, k, first))
             for c in range(3):
                 acceleration[k, first + c] += taken[c]
             v = add(row(particles.twist, k, first), scale(half, row(acceleration, k, first)))
@@ -241,15 +246,20 @@ def move_after_forces(
     numbers: Numbers,
     scratch: Floats,
     time: float,
+    how: Any,
     book: Floats,
 ) -> None:
-    """Compute accelerations, kick, and drift to the end of the stage; book the work of what acts from outside."""
+    """Compute accelerations, kick, and drift to the end of the stage; book the work of what acts from outside.
+
+    Where a damping steers all particles, accelerations are there already: it had to ask for them.
+    """
     dt = numbers.dt
     kicked = (stage.kick_before + stage.kick_after) * dt
     for k in range(begin, end):
-        accelerate(particles, k, numbers, time)
+        if not STEERS:
+            accelerate(particles, k, numbers, time)
         if BRAKES:
-            brake(particles, k, numbers, book, kicked)
+            brake(particles, k, numbers, how, book, kicked)
         book_outside_work(particles, k, numbers, time, book, kicked)
         if stage.kick_after != 0.0:
             kick(particles, k, stage.kick_after * dt)

@@ -6,6 +6,8 @@ others write. Walls and the clock belong to the first thread.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from clast.engine.barrier import wait
@@ -18,7 +20,8 @@ from .contact_sweep import sweep_contacts
 from .images import box_of
 from .layout import BOX_POWER, DONE, LANES, MOVED, PRIMED, STAGE, STALE, STEP
 from .motion import move_after_forces, move_before_forces
-from .slots import BONDS, CHUNKED, CONTACTS, FORCES_AT, SPANS, STAGES, STRETCHES, WALLS
+from .slots import BONDS, CHUNKED, CONTACTS, FORCES_AT, SPANS, STAGES, STEERS, STRETCHES, WALLS
+from .steering import how_to_brake, weigh
 from .stretching import book_box_work, stretch_box
 from .wall_motion import book_wall_work, clear_wall_forces, move_walls, start_walls, steer_walls, sum_wall_forces
 from .wall_sweep import sweep_walls
@@ -119,12 +122,21 @@ def sweep_chunks(world: World, begin: int, end: int, active: Indices, span: floa
 
 
 @inlined
-def move_from_forces(world: World, begin: int, end: int, first: bool, stage: Stage, time: float, span: float) -> None:
+def weigh_chunks(world: World, begin: int, end: int, time: float) -> None:
+    """Compute the accelerations of the chunks from ``begin`` to ``end``, and what a damping asks of them together."""
+    for c in range(begin, end):
+        weigh(world.particles, world.chunks[c], world.chunks[c + 1], world.numbers, time, world.ledger[c])
+
+
+@inlined
+def move_from_forces(
+    world: World, begin: int, end: int, first: bool, stage: Stage, time: float, span: float, how: Any
+) -> None:
     """Move the chunks from ``begin`` to ``end``, and the walls, to the end of the stage."""
     numbers, chunks = world.numbers, world.chunks
     for c in range(begin, end):
         scratch, book = world.scratch[c], world.ledger[c]
-        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, book)
+        move_after_forces(world.particles, chunks[c], chunks[c + 1], stage, numbers, scratch, time, how, book)
     if STRETCHES and first:
         at, _ = until_next_forces(world.clock)
         stretch_box(box_of(world.particles), time + (at + stage.drift_after) * numbers.dt)
@@ -169,7 +181,12 @@ def advance(world: World, steps: int, team: Team) -> int:
                 sweep_walls(world.walls, world.wall_pairs, world.particles, numbers, world.ledger[-1], span)
         if CHUNKED:
             wait(team)
-        move_from_forces(world, begin, end, first, stage, time, span)
+        if STEERS:
+            weigh_chunks(world, begin, end, time)
+            if CHUNKED:
+                wait(team)
+        how = how_to_brake(world, clock)
+        move_from_forces(world, begin, end, first, stage, time, span, how)
         if count_stage(clock) and WALLS and first:
             sum_wall_forces(world.walls)
     return DONE

@@ -68,6 +68,23 @@ def judge_rest(bench: Bench) -> Findings:
     yield Finding("ended by a condition", 1.0, float(simulation.ended is not None), 0.0)
 
 
+def judge_fire(bench: Bench) -> Findings:
+    """Compare where a hanging row comes to rest, and what was taken from it on the way, with statics."""
+    simulation = bench.start()
+    scene, k, config = simulation.scene, beam_of(simulation.scene).axial, simulation.scene.config
+    gravity: Any = config.body_forces[0].params
+    weights = scene.mass[1:] * float(np.linalg.norm(gravity.acceleration))
+    sags = np.cumsum(np.cumsum(weights[::-1])[::-1] / k)
+    before = position(simulation)[1:, 2]
+    simulation.advance_to(simulation.last_step)
+    met = before - position(simulation)[1:, 2]
+    pairs = zip(sags.tolist(), met.tolist(), strict=True)
+    yield worst(Finding("displacement at rest, m", sag, found, STATICS) for sag, found in pairs)
+    books = simulation.ledger()
+    yield Finding("heat of the damping, J", 0.5 * float(weights @ sags), books.braked, SHARE)
+    yield Finding("energy missing or too much, share", 0.0, books.closure, SHARE, True)
+
+
 def swing_of(simulation: Simulation) -> tuple[float, float, float]:
     """Return α, the time of a swing in s, and the share of it that the next keeps."""
     scene = simulation.scene
@@ -93,7 +110,8 @@ FAMILY = Family(
     "damping",
     "Damping of motion",
     "Local damping makes a spring 1 - α times as stiff on the way to rest and 1 + α times beyond it, so each swing "
-    "keeps √((1 - α)/(1 + α)) of the one before. Where it ends the damping has no part in: what is left is static.",
+    "keeps √((1 - α)/(1 + α)) of the one before. FIRE stops all particles together where forces would brake them. "
+    "Where it ends no damping has a part in: what is left is static.",
     (
         Case(
             "damping_local",
@@ -102,6 +120,14 @@ FAMILY = Family(
             judge_local,
             "P. A. Cundall (1987), Distinct element models of rock and soil structure: an oscillator of the stiffness "
             "(1 - α) k on the way to rest and (1 + α) k away from it; at rest m g/k",
+            (needs.cylinder,),
+        ),
+        Case(
+            "damping_fire",
+            "the rest to which FIRE brings a row that hangs",
+            "damping_fire",
+            judge_fire,
+            "statics of springs in a row: bond n carries the weight of all below it; half the work of weight is stored",
             (needs.cylinder,),
         ),
         Case(
