@@ -94,7 +94,7 @@ def _draw_half(plotter: Any, run: Run, frame: Frame, damage: NDArray[np.float32]
     bounds = np.stack([low - beyond, high + beyond], axis=1)
     bounds[1, 0] = middle
     for wall in run.walls.values():
-        whole = pv.PolyData.from_regular_faces(wall.points + frame.wall_displacement[wall.index], wall.triangles)
+        whole = pv.PolyData.from_regular_faces(wall.placed(frame), wall.triangles)
         part = whole.clip_box(bounds.ravel(), invert=False).extract_surface(algorithm="dataset_surface")
         if part.n_points:
             add_wall(plotter, part, opacity=0.15)

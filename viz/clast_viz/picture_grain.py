@@ -37,7 +37,7 @@ def draw_grain(plotter: Any, run: Run, frame: Frame, height: int, *, bonds: bool
     if bonds:
         _add_bonds(plotter, run, frame, height)
     for wall in run.walls.values():
-        placed = wall.points + frame.wall_displacement[wall.index]
+        placed = wall.placed(frame)
         add_wall(plotter, pv.PolyData.from_regular_faces(placed, wall.triangles))
     add_box(plotter, frame.box)
     add_text(plotter, height, _caption(run, frame), (0.025, 0.945))

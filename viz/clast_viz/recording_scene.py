@@ -50,7 +50,9 @@ class SceneLog:
 
         self._stream.log("scene/particles", rr.Points3D.from_fields(positions=frame.position))
         for name, wall in self._run.walls.items():
-            moved = rr.Transform3D(translation=frame.wall_displacement[wall.index])
+            w, x, y, z = wall.orientation(frame)
+            turned = {} if wall.pivot is None else {"quaternion": rr.Quaternion(xyzw=(x, y, z, w))}
+            moved = rr.Transform3D(translation=wall.shift(frame), **turned)
             self._stream.log(f"scene/walls/{name}", moved)
         if frame.box.repeats:
             middle, half = 0.5 * (frame.box.lower + frame.box.upper), 0.5 * (frame.box.upper - frame.box.lower)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from clast.config.choice import Chosen
 from clast.config.part_beside import Joined, PartBeside
 from clast.config.sections import NeighbourSettings, WallSettings
-from clast.config.stages import STAGE, Stage
+from clast.config.stages import STAGE, Stage, pivot
+from clast.maths.vec3 import Vec
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,11 @@ class WallChoice(Joined):
     def motion(self) -> Chosen | None:
         """The motion that it begins with; None where it rests."""
         return self.stages[0].motion if self.stages else None
+
+    @property
+    def pivot(self) -> Vec | None:
+        """The point in m about which it turns, as it stands at the start; None where it does not turn."""
+        return pivot(self.stages)
 
     @property
     def staged(self) -> bool:

@@ -9,6 +9,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from clast.config.choice import Chosen, PartOf
 from clast.config.part_beside import Joined, PartBeside
+from clast.maths.vec3 import Vec
 from clast.parts.params import Params
 
 
@@ -46,9 +47,31 @@ def _all_but_the_last_end(stages: tuple[Stage, ...]) -> tuple[Stage, ...]:
     return stages
 
 
+def pivot(stages: tuple[Stage, ...]) -> Vec | None:
+    """Return the point in m about which a wall turns in some stage, as it stands at the start; None without any."""
+    turning = (stage.motion for stage in stages if stage.motion.part.pivot is not None)
+    return next((motion.part.pivot(motion.params) for motion in turning), None)
+
+
+def _turn_about_one_point(stages: tuple[Stage, ...]) -> tuple[Stage, ...]:
+    first = pivot(stages)
+    for k, stage in enumerate(stages):
+        turned = pivot((stage,))
+        if turned is not None and turned != first:
+            raise ValueError(
+                f"motion {k} ({stage.motion.name}) turns about {list(turned)} m, and one before it about "
+                f"{list(first or ())} m; give all the same point: a wall turns about one"
+            )
+    return stages
+
+
 Stages = Annotated[
     Annotated[
-        tuple[Annotated[Stage, STAGE], ...], Field(min_length=1), AfterValidator(_all_but_the_last_end), Tag("<list>")
+        tuple[Annotated[Stage, STAGE], ...],
+        Field(min_length=1),
+        AfterValidator(_all_but_the_last_end),
+        AfterValidator(_turn_about_one_point),
+        Tag("<list>"),
     ]
     | Annotated[Stage, STAGE, Tag("<one>")],
     Discriminator(lambda given: "<list>" if isinstance(given, list | tuple) else "<one>"),

@@ -144,6 +144,11 @@ class Blueprint:
         return any(motion.answer is not None for motion in self.motions)
 
     @property
+    def walls_turn(self) -> bool:
+        """Whether some wall turns."""
+        return any(motion.spin is not None for motion in self.motions)
+
+    @property
     def orientation(self) -> bool:
         """Whether orientations are integrated."""
         return self.bonds is not None and self.bonds.kinematics.needs_orientation
@@ -217,7 +222,7 @@ class Blueprint:
         found += [
             function
             for motion in self.motions
-            for function in (motion.velocity, motion.way, motion.answer, motion.start)
+            for function in (motion.velocity, motion.way, motion.answer, motion.start, motion.spin)
         ]
         found += [function for force in self.body_forces for function in (force.acceleration, force.load)]
         found += [self.damping.braking, self.damping.steering] if self.damping is not None else []

@@ -10,10 +10,23 @@ from numpy.typing import NDArray
 
 from clast.engine.cache_lines import on_lines
 from clast.engine.chunks import shared_out
-from clast.engine.kernels.layout import FIRST, INTACT, INVERSE_MASS, LANES, RADIUS, SPAN, SPAN_AT_SEARCH, V, X
+from clast.engine.kernels.layout import (
+    ANGLE,
+    ARM,
+    FIRST,
+    INTACT,
+    INVERSE_MASS,
+    LANES,
+    RADIUS,
+    SPAN,
+    SPAN_AT_SEARCH,
+    V,
+    X,
+)
 from clast.engine.near_pairs import near_pairs
 from clast.engine.state import Bonds, Floats, Indices, Integers, Pairs, Particles, WallPairs, Walls
 from clast.engine.tables import box_of, slot_view
+from clast.engine.wall_frames import arms
 from clast.errors import RunError
 from clast.maths.box import Box
 from clast.parts.neighbour_search import NeighbourSearch
@@ -172,4 +185,7 @@ def remember_positions(particles: Particles, walls: Walls, slack: Floats) -> Non
     box = box_of(particles)
     if box is not None:
         box[SPAN_AT_SEARCH] = box[SPAN]
-    walls.reference[:] = walls.displacement
+    walls.reference[:, :3] = walls.displacement
+    if walls.reference.shape[1] > 3:
+        walls.reference[:, ANGLE] = 0.0
+        walls.reference[:, ARM] = arms(walls, particles, particles.pose[:, RADIUS] + slack)

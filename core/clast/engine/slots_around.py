@@ -30,9 +30,9 @@ def walls_text(plan: Blueprint) -> str:
 
 
 def _motions(plan: Blueprint) -> list[str]:
-    lines, begin, known, answers = [], [], [], []
+    lines, begin, known, answers, spins = [], [], [], [], []
     for k, motion in enumerate(plan.motions):
-        lines += [bind(f"{name}_{k}", getattr(motion, name)) for name in ("velocity", "way", "answer", "start")]
+        lines += [bind(f"{name}_{k}", getattr(motion, name)) for name in ("velocity", "way", "answer", "start", "spin")]
         lines.append(bind_record(f"Course{k}", motion.Course))
         course = construct_long(motion.Course, f"Course{k}")
         start = f"start_{k}({course})" if motion.start else "ZERO"
@@ -40,12 +40,14 @@ def _motions(plan: Blueprint) -> list[str]:
         mean = f"scale(1.0 / span, way_{k}({course}, time - 0.5 * span, time + 0.5 * span))"
         known.append(mean if motion.way else begin[k])
         answers.append(f"answer_{k}({course}, time, pressed)" if motion.answer else known[k])
-    for branches in (begin, known, answers):
+        spins.append(f"spin_{k}({course}, time)" if motion.spin else "ZERO")
+    for branches in (begin, known, answers, spins):
         branches.append("ZERO")  # walls without a motion stand still
     return [
         *lines,
         dispatch("wall_start", "walls, w, now", begin, "ZERO", COURSE),
         dispatch("wall_velocity", "walls, w, now, span", known, "ZERO", COURSE),
+        dispatch("wall_spin", "walls, w, now", spins, "ZERO", COURSE),
         dispatch("wall_answer", "walls, w, now, pressed", answers, "ZERO", [*COURSE, "span = pressed.span"]),
     ]
 

@@ -90,6 +90,7 @@ def _flags(plan: Blueprint) -> str:
         "CURVED_WALLS": plan.curved_walls,
         "MANIFOLDS": plan.manifolds,
         "ANSWERING": plan.answering,
+        "WALLS_TURN": plan.walls_turn,
         "BODY_FORCES": any(force.acceleration is not None for force in plan.body_forces),
         "BODY_LOADS": plan.body_loads,
         "BRAKES": plan.damping is not None,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from clast.engine.blueprint import Blueprint
 from clast.engine.response import Response, respond, rolling_response
 from clast.engine.wall_feet import feet
+from clast.engine.wall_frames import WallFrames, at_start
 from clast.maths.box import Box, open_space
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
@@ -76,7 +77,7 @@ def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
     bodies = bodies_at_start(scene)
     pairs = close_pairs(scene.position, scene.radius, 0.0, scene.box)[0]
     everything = np.ones(len(scene.ends), bool)
-    still = np.zeros((len(scene.config.walls), 3))
+    still = at_start(len(scene.config.walls))
     near = near_walls(scene, scene.position, still)
     responses = contact_responses(scene, plan)
     bonded_pairs_touch = plan.contacts is not None and plan.contacts.bonded_pairs
@@ -168,21 +169,22 @@ def contact_springs(
     )
 
 
-def wall_springs(scene: Scene, responses: Responses, bodies: Bodies, near: Integers, displacement: Floats) -> Springs:
+def wall_springs(scene: Scene, responses: Responses, bodies: Bodies, near: Integers, frames: WallFrames) -> Springs:
     """Return the springs of the rows of ``near`` (p, 2), wall and particle, that touch.
 
     Parameters
     ----------
-    displacement : (w, 3) float64
-        How far each wall has moved, in m.
+    frames : WallFrames
+        Where the walls are.
     """
     names = list(scene.config.materials)
     rows, materials, reach = [], [], bodies.radius + largest_reach(scene)
     for w, wall in enumerate(scene.config.walls.values() if responses else ()):
         mine = near[near[:, 0] == w, 1]
         mine = mine[bodies.inverse_mass[mine] > 0.0]
-        found = feet(wall.shape.part, wall.shape.params, bodies.position[mine] - displacement[w], reach[mine])
-        rows.append(np.column_stack([mine[found.point], found.distance, found.normal]))
+        found = feet(wall.shape.part, wall.shape.params, frames.seen(w, bodies.position[mine]), reach[mine])
+        normals = frames.in_space(w, found.normal)
+        rows.append(np.column_stack([mine[found.point], found.distance, normals]))
         materials.append(np.full(len(found.point), names.index(wall.material)))
     table = np.concatenate([np.zeros((0, 5)), *rows])
     if len(table) == 0:

@@ -101,6 +101,10 @@ class WallPairs(NamedTuple):
 class Walls(NamedTuple):
     """Walls: numbers of shape and motion, where they are, and what acts on them.
 
+    ``pose`` (w, 3) is how far each has moved; where some wall turns it is (w, 7), with how it is turned about its
+    ``centre``; ``twist`` (w, 3 or 6) and ``reference`` (w, 3 or 5) likewise: columns in ``kernels.layout``. Moments are
+    about the centre.
+
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
     flat; ``lists`` holds what shapes and courses have of any length. ``begun`` (w,) is when the present stage of each
     wall's motion began in s, ``stage`` (w, 2) its number and that of the sample at which it began.
@@ -114,8 +118,8 @@ class Walls(NamedTuple):
     course: Floats
     material: Integers
     centre: Floats
-    displacement: Floats
-    velocity: Floats
+    pose: Floats
+    twist: Floats
     force: Floats
     moment: Floats
     force_sum: Floats
@@ -129,6 +133,16 @@ class Walls(NamedTuple):
     slots: Integers
     places: Floats
     crowded: Bytes
+
+    @property
+    def displacement(self) -> Floats:
+        """How far each wall, or the centre about which it turns, has moved, (w, 3) in m."""
+        return self.pose[:, :3]
+
+    @property
+    def velocity(self) -> Floats:
+        """Velocity of each wall, or of the centre about which it turns, (w, 3) in m/s."""
+        return self.twist[:, :3]
 
 
 class Cracks(NamedTuple):

@@ -24,6 +24,7 @@ from clast.engine.springs import (
 from clast.engine.state import World
 from clast.engine.tables import box_now, intact
 from clast.engine.vibration import largest_eigenvalue
+from clast.engine.wall_frames import now
 from clast.errors import RunError
 from clast.scene.scene import Scene
 
@@ -156,7 +157,7 @@ class StepKeeper:
         holds = intact(world.bonds) if not self.bonded_pairs_touch else np.zeros(len(self.scene.ends), bool)
         return joined(
             contact_springs(self.scene, self.responses, bodies, candidates, holds),
-            wall_springs(self.scene, self.responses, bodies, near_walls, world.walls.displacement),
+            wall_springs(self.scene, self.responses, bodies, near_walls, now(world.walls)),
             drag_springs(self.scene, bodies, world.particles.twist[:, V : V + 3]),
         )
 

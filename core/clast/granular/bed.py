@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Frame, Run, WallMesh
+from clast.results.run import Frame, Run
+from clast.results.wall_mesh import WallMesh
 
 Floats = NDArray[np.float64]
 ROUND = 1e-6
@@ -56,10 +57,7 @@ class Bed:
         """Return the heights of the lower and the upper plate in m; infinite without plates."""
         if self.plates is None:
             return -np.inf, np.inf
-        low, high = (
-            self.heights(plate.points.mean(axis=0)[None] + frame.wall_displacement[plate.index])[0]
-            for plate in self.plates
-        )
+        low, high = (self.heights(plate.placed(frame).mean(axis=0)[None])[0] for plate in self.plates)
         return float(low), float(high)
 
     def extent(self, frame: Frame, radius: Floats) -> tuple[float, float]:

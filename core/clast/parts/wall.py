@@ -79,9 +79,9 @@ class Wall:
         The numbers the compiled loop needs; arrays of float64 too.
     shape : (params) -> Shape
     nearest : (shape, x) -> Nearest
-        For a centre x given in the wall's own frame (its displacement already subtracted).
+        For a centre x given in the wall's own frame: its motion is already taken off.
     centre : (params) -> vector
-        Point about which the wall's moment is reported.
+        Point about which the wall's moment is reported, unless it turns: then it is about the pivot of its motion.
     touches : (shape, x, reach, found) -> int, optional
         For surfaces that a sphere can touch in several places. Writes distance and normal, one row each, of every place
         that is nearer to x than ``reach`` and than the surface around it, the nearest first; returns how many there
@@ -140,6 +140,11 @@ class Motion:
         first force evaluation the wall rests, or has the velocity of ``start``.
     start : (course) -> vector, optional
         Velocity in m/s of a wall that answers, before any force is known.
+    spin : (course, time) -> vector, optional
+        Angular velocity of the wall in rad/s, about its pivot; from one force evaluation to the next it keeps that of
+        the middle.
+    pivot : (params) -> vector, optional
+        Point in m about which it turns, as it stands at the start; it moves with the wall's velocity.
     lasts : (course) -> float, optional
         Time in s up to which it tells how the wall moves; scenes that end later are refused.
     step_share : (course, mass) -> float, optional
@@ -149,7 +154,7 @@ class Motion:
     Raises
     ------
     PluginError
-        If it has neither or both, or a way and no velocity.
+        If it has neither or both, a way and no velocity, or only one of spin and pivot.
     """
 
     summary: str
@@ -162,12 +167,16 @@ class Motion:
     step_share: Callable[[Any, float], float] | None = None
     way: Callable[..., Vec] | None = None
     lasts: Callable[[Any], float] | None = None
+    spin: Callable[[Any, float], Vec] | None = None
+    pivot: Callable[[Any], Vec] | None = None
 
     def __post_init__(self) -> None:
         if (self.velocity is None) == (self.answer is None):
             raise PluginError(f"motion {self.summary!r} needs either 'velocity' or 'answer'")
         if self.way is not None and self.velocity is None:
             raise PluginError(f"motion {self.summary!r} has a 'way', and no 'velocity' to go with it")
+        if (self.spin is None) != (self.pivot is None):
+            raise PluginError(f"motion {self.summary!r} needs both 'spin' and 'pivot', or neither")
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from clast.engine.kernels.layout import Q, V, X
+from clast.engine.kernels.layout import WALL_Q, Q, V, X
 from clast.results.contacts import ENDS, GROUP, find_contacts, keeps_contacts
 from clast.results.store import Store
 from clast.simulation import Simulation
@@ -43,6 +43,8 @@ class Frames:
             "velocity": velocity,
             "wall_displacement": simulation.world.walls.displacement,
         }
+        if simulation.plan.walls_turn:
+            row["wall_orientation"] = simulation.world.walls.pose[:, WALL_Q:]
         if box.repeats:
             row |= {"image": box.images(place).astype(np.int32), "box": np.array([box.lower, box.upper])}
         if simulation.plan.orientation:

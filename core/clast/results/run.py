@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple
@@ -27,6 +26,7 @@ from clast.results.reading import (
     telling_damage,
 )
 from clast.results.reference import read_references
+from clast.results.wall_mesh import WallMesh
 
 
 class Frame(NamedTuple):
@@ -53,6 +53,8 @@ class Frame(NamedTuple):
     """(m,) failure index: 0 unloaded, 1 breaks, 0 when broken"""
     wall_displacement: NDArray[np.float64]
     """(w, 3), m"""
+    wall_orientation: NDArray[np.float64] | None
+    """(w, 4) unit quaternions w, x, y, z that turn walls from the start, or None where none turns"""
     image: NDArray[np.int32]
     """(n, 3) how many boxes away each particle is; 0 in directions that are not periodic"""
     box: Box
@@ -67,25 +69,6 @@ class Frame(NamedTuple):
         """From the first particle of each pair, (k, 2), to the nearest image of the second, (k, 2, 3) in m."""
         first, second = self.position[pairs[:, 0]], self.position[pairs[:, 1]]
         return np.stack([first, self.box.beside(first, second).astype(np.float32)], axis=1)
-
-
-@dataclass(frozen=True)
-class WallMesh:
-    """Triangles that draw a wall at displacement 0.
-
-    Attributes
-    ----------
-    points : (p, 3) float64
-        Corners in m.
-    triangles : (t, 3) int64
-        Numbers of the corners of each triangle.
-    index : int
-        Row of this wall in ``Frame.wall_displacement``.
-    """
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int64]
-    index: int
 
 
 class Run:
@@ -184,7 +167,9 @@ class Run:
         self.bond_diameter: NDArray[np.float64] = file["bonds/diameter"][:]
         self.bond_length: NDArray[np.float64] = file["bonds/length"][:]
         walls = {
-            name: WallMesh(group["points"][:], group["triangles"][:], int(group.attrs["index"]))
+            name: WallMesh(
+                group["points"][:], group["triangles"][:], int(group.attrs["index"]), group.attrs.get("pivot")
+            )
             for name, group in file.get("walls", {}).items()
         }
         self.walls = dict(sorted(walls.items(), key=lambda item: item[1].index))
@@ -227,6 +212,7 @@ class Run:
             bond_stress=frames["bond_stress"][k],
             bond_failure=frames["bond_failure"][k],
             wall_displacement=frames["wall_displacement"][k].reshape(-1, 3),
+            wall_orientation=frames["wall_orientation"][k] if "wall_orientation" in frames else None,
             image=frames["image"][k] if "image" in frames else np.zeros((len(self.radius), 3), np.int32),
             box=self._box(k),
         )

@@ -68,6 +68,8 @@ def _describe(file: Any, simulation: Simulation) -> None:
         group = file.create_group(f"walls/{name}")
         group["points"], group["triangles"] = wall.shape.part.mesh(wall.shape.params, 0.75 * extent)
         group.attrs["index"] = k
+        if wall.pivot is not None:
+            group.attrs["pivot"] = wall.pivot
     for name in TRACKS:
         wanted = getattr(scene.config.output.tracks, name)
         if wanted:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.wall_feet import feet
+from clast.engine.wall_frames import WallFrames
 from clast.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -15,7 +16,7 @@ WIDTH = 6.0
 FEW = 64
 
 
-def near_walls(scene: Scene, position: Floats, displacement: Floats) -> Integers:
+def near_walls(scene: Scene, position: Floats, frames: WallFrames) -> Integers:
     """Return the rows (p, 2), wall and particle in rising order, of all particles that may touch a wall.
 
     The distances of two points to a surface differ by no more than the points are apart: so one question, at the middle
@@ -25,8 +26,8 @@ def near_walls(scene: Scene, position: Floats, displacement: Floats) -> Integers
     ----------
     position : (n, 3) float64
         Centres in m.
-    displacement : (w, 3) float64
-        How far each wall has moved, in m.
+    frames : WallFrames
+        Where the walls are.
     """
     largest = float(scene.radius.max())
     walls = list(scene.config.walls.values())
@@ -40,7 +41,7 @@ def near_walls(scene: Scene, position: Floats, displacement: Floats) -> Integers
     rows = []
     for w, wall in enumerate(walls):
         near = np.zeros(len(middle), bool)
-        near[feet(wall.shape.part, wall.shape.params, middle - displacement[w], reach).point] = True
+        near[feet(wall.shape.part, wall.shape.params, frames.seen(w, middle), reach).point] = True
         here = np.nonzero(near[member.ravel()])[0]
         rows.append(np.column_stack([np.full(len(here), w), here]))
     return np.concatenate([np.zeros((0, 2), np.int64), *rows])

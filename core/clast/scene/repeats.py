@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.kernels.layout import MOST_SHRUNK
+from clast.engine.wall_frames import WallFrames, at_start
 from clast.errors import ConfigError
 from clast.maths.box import Box
 from clast.maths.vec3 import ZERO, Vec
@@ -26,6 +27,8 @@ LONGEST_BOND = 0.4
 """Longest bond at the start as a share of a side: it may stretch by a quarter before its ends are nearer round the
 other way."""
 PLACES = 64
+TIMES = (0.0, 1e-6, 1e-3, 1.0, 1e3)
+"""Times in s at which walls are asked about which axis they turn."""
 ALIKE = 1e-9
 """Difference of two distances or accelerations that rounding may make, as a share."""
 
@@ -123,9 +126,27 @@ def _even(wall: WallChoice, scene: Scene, axis: int) -> bool:
     step = np.zeros(3)
     step[axis] = scene.box.span[axis]
     asked = scene.position[:: -(-len(scene.position) // PLACES)]
-    here = np.array([wall.distance(x) for x in asked])
-    there = np.array([wall.distance(x) for x in asked + step])
-    return bool(np.all(np.abs(here - there) <= ALIKE * (np.abs(here) + step[axis])))
+    frames = [at_start(1), *([] if wall.pivot is None else _turned(wall))]
+    for frame in frames:
+        here = np.array([wall.distance(x) for x in frame.seen(0, asked)])
+        there = np.array([wall.distance(x) for x in frame.seen(0, asked + step)])
+        if not np.all(np.abs(here - there) <= ALIKE * (np.abs(here) + step[axis])):
+            return False
+    return True
+
+
+def _turned(wall: WallChoice) -> list[WallFrames]:
+    """Return the frames of a wall that each of its motions has turned by a radian."""
+    frames = []
+    for motion in (stage.motion for stage in wall.stages if stage.motion.part.spin is not None):
+        course = motion.part.course(motion.params)
+        spins = np.array([motion.part.spin(course, t) for t in TIMES])
+        axis = spins[int(np.argmax(np.linalg.norm(spins, axis=1)))]
+        if np.any(axis):
+            x, y, z = (np.sin(0.5) * axis / np.linalg.norm(axis)).tolist()
+            pose = np.array([[0.0, 0.0, 0.0, np.cos(0.5), x, y, z]])
+            frames.append(WallFrames(pose, np.array([wall.pivot])))
+    return frames
 
 
 def _refuse_uneven_forces(scene: Scene) -> None:

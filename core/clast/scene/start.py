@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from clast.config.scene import SceneConfig
 from clast.engine.wall_feet import feet
+from clast.engine.wall_frames import at_start
 from clast.maths.box import Box
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
@@ -184,8 +185,7 @@ def _name(scene: Scene, particle: int) -> str:
 def _refuse_wall_overlaps(scene: Scene) -> None:
     contacts = scene.config.contacts
     assert contacts is not None
-    still = np.zeros((len(scene.config.walls), 3))
-    near = near_walls(scene, scene.position, still)
+    near = near_walls(scene, scene.position, at_start(len(scene.config.walls)))
     for w, (name, wall) in enumerate(scene.config.walls.items()):
         here = near[near[:, 0] == w, 1]
         here = here[~scene.prescribed[here]]

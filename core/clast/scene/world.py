@@ -16,6 +16,7 @@ from clast.engine.kernels.layout import (
     LANES,
     RADIUS,
     TERMS,
+    WALL_Q,
 )
 from clast.engine.records import fields, leaves, numbers
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
@@ -155,7 +156,9 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
     chosen = list(scene.config.walls.values())
     names = list(scene.config.materials)
     rows = wall_rows(scene, plan)
-    centres = [wall.shape.part.centre(wall.shape.params) for wall in chosen]
+    centres = [wall.pivot or wall.shape.part.centre(wall.shape.params) for wall in chosen]
+    pose = np.zeros((len(chosen), 7 if plan.walls_turn else 3))
+    pose[:, WALL_Q : WALL_Q + 1] = 1.0
     slots = np.array([wall.shape.part.slots(wall.shape.params) for wall in chosen], np.int64)
     return Walls(
         shape_kind=np.array([plan.walls.index(wall.shape.part) for wall in chosen], np.int64),
@@ -169,6 +172,9 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         slots=slots,
         places=np.zeros((2 * int(slots.max(initial=1)) + 1, 4)),
         crowded=np.zeros(len(slots), np.uint8),
-        **{name: np.zeros((len(chosen), 3)) for name in ("displacement", "velocity", "reference", *SUMMED)},
+        pose=pose,
+        twist=np.zeros((len(chosen), 6 if plan.walls_turn else 3)),
+        reference=np.zeros((len(chosen), 5 if plan.walls_turn else 3)),
+        **{name: np.zeros((len(chosen), 3)) for name in SUMMED},
         **{name: np.zeros(len(chosen)) for name in ("pressing", "pressing_sum", "begun")},
     )

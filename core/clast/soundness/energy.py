@@ -9,6 +9,7 @@ import numpy as np
 from clast.engine.kernels.layout import V, W
 from clast.engine.ledger import Ledger
 from clast.engine.state import World
+from clast.engine.wall_frames import fastest_surface
 from clast.scene.scene import Scene
 
 SPARE = 2.0
@@ -89,6 +90,6 @@ class EnergyWatch:
     def _thrown(self, world: World) -> float:
         """Return the energy of all particles at twice the speed of the fastest driver, in J; least is round-off."""
         driven = world.particles.twist[self.driven]
-        surface = driven[:, V : V + 3], self.largest * driven[:, W : W + 3], world.walls.velocity
+        surface = driven[:, V : V + 3], self.largest * driven[:, W : W + 3], fastest_surface(world.walls)
         fastest = max(float(np.abs(each).max(initial=0.0)) for each in surface)
         return 2.0 * self.mass * max(fastest, STILL * self.smallest / world.numbers.dt) ** 2

@@ -11,8 +11,9 @@ import numpy as np
 from clast.engine.blueprint import Blueprint
 from clast.engine.images import growth, velocities_between
 from clast.engine.impact import impact_duration
-from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V
+from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V, X
 from clast.engine.state import Floats, World
+from clast.engine.wall_frames import fastest_surface, surface_velocities
 from clast.scene.scene import Scene
 from clast.soundness.near import Energies, Nearness
 
@@ -51,7 +52,7 @@ class ImpactsAhead:
         """Return who is about to meet too fast for steps of ``dt`` seconds."""
         if not self.energies.constants:
             return None
-        closing = 2.0 * fastest(world.particles.twist[:, V : V + 3]) + fastest(world.walls.velocity)
+        closing = 2.0 * fastest(world.particles.twist[:, V : V + 3]) + fastest_surface(world.walls)
         closing += growth(world.particles)
         if closing <= self.harmless:
             return None
@@ -106,7 +107,8 @@ class ImpactsAhead:
             radii = (float(radius[a]), float(radius[b]))
             yield Meeting(f"particles {a} and {b}", materials, radii, per_mass, float(closing[k]))
         walls, beside, towards, depth = near.walls
-        speed = np.einsum("kc,kc->k", v[beside] - world.walls.velocity[walls], towards)
+        surface = surface_velocities(world.walls, walls, world.particles.pose[beside, X : X + 3])
+        speed = np.einsum("kc,kc->k", v[beside] - surface, towards)
         for p in np.nonzero((depth < 0.0) & (speed > 0.0))[0].tolist():
             one, wall = int(beside[p]), int(walls[p])
             who = f"particle {one} and the wall '{list(self.scene.config.walls)[wall]}'"

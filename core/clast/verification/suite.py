@@ -26,6 +26,7 @@ from clast.verification.families import (
     spinning_impacts,
     surroundings,
     time_steps,
+    turning_walls,
     waves,
     whole_runs,
 )
@@ -47,6 +48,7 @@ FAMILIES: tuple[Family, ...] = (
     fluid.FAMILY,
     time_steps.FAMILY,
     surroundings.FAMILY,
+    turning_walls.FAMILY,
     meshes.FAMILY,
     periodic.FAMILY,
     packings.FAMILY,

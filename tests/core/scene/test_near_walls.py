@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from tests.scenes import write
 
 from clast import load
+from clast.engine.wall_frames import WallFrames, at_start
 from clast.scene.build import build_scene
 from clast.scene.near_walls import near_walls
 from clast.scene.plan import wall_shapes
@@ -45,7 +46,9 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Scene:
 @given(st.tuples(*3 * [st.floats(-0.02, 0.02)]))
 def test_every_particle_that_touches_a_wall_is_near_it(scene: Scene, moved: tuple[float, float, float]) -> None:
     displacement = np.array([moved, (0.0, 0.0, 0.0), moved])
-    near = {tuple(row) for row in near_walls(scene, scene.position, displacement).tolist()}
+    near = {
+        tuple(row) for row in near_walls(scene, scene.position, WallFrames(displacement, np.zeros((3, 3)))).tolist()
+    }
     for w, (nearest, shape) in enumerate(wall_shapes(scene)):
         for k, x in enumerate((scene.position - displacement[w]).tolist()):
             if nearest(shape, tuple(x)).distance < scene.radius[k]:
@@ -53,4 +56,4 @@ def test_every_particle_that_touches_a_wall_is_near_it(scene: Scene, moved: tupl
 
 
 def test_most_particles_are_not_asked_about(scene: Scene) -> None:
-    assert len(near_walls(scene, scene.position, np.zeros((3, 3)))) < 0.5 * 3 * 400
+    assert len(near_walls(scene, scene.position, at_start(3))) < 0.5 * 3 * 400

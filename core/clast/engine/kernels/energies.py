@@ -74,6 +74,7 @@ from .slots import (
     row_constants,
 )
 from .stretching import stretch_box
+from .wall_frames import power_on_wall
 from .wall_places import place_on_wall
 from .wall_sweep import farthest, wall_constants, wall_reach, wall_touch
 
@@ -106,18 +107,18 @@ def energies(world: World, moving: bool, found: Floats) -> None:
     back = -LAG * world.numbers.dt
     time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
     scratch = np.empty(max(BOND_SCRATCH, HISTORY_BASE + HISTORY + 1) * LANES)
-    poses, displacements = world.particles.pose.copy(), world.walls.displacement.copy()
+    poses, wall_poses = world.particles.pose.copy(), world.walls.pose.copy()
     if LAG != 0.0:
         go_back(world, scratch, back)
     found[0] = kinetic_energy(world.particles, world.numbers.dt)
     found[1], found[2] = elastic_energies(world, scratch, time, found[LATEST:])
     for w in range(len(world.walls.shape_kind)):
-        found[LATEST + WALLS_DID] -= time * dot(row(world.walls.force, w, 0), row(world.walls.velocity, w, 0))
+        found[LATEST + WALLS_DID] -= time * power_on_wall(world.walls, w)
     if STRETCHES:
         found[LATEST + BOX_DID] += time * world.ledger[:, BOX_POWER].sum()
     if LAG != 0.0:
         world.particles.pose[:] = poses
-        world.walls.displacement[:] = displacements
+        world.walls.pose[:] = wall_poses
         if STRETCHES:
             stretch_box(box_of(world.particles), time_now(world))
 
@@ -268,7 +269,7 @@ def wall_energy(
         return 0.0
     lever = radius - numbers.lever * (radius - near.distance)
     held = pairs.touching[p] != 0
-    touch, share = wall_touch(particles, k, near.distance, near.normal, lever, row(walls.velocity, w, 0), held, time)
+    touch, share = wall_touch(particles, walls, k, w, near, lever, held, time)
     history = fresh_history()
     if HISTORY > 0 and held:
         spin = 0.5 * dot(touch.spin_i, near.normal) * time

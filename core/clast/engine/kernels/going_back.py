@@ -10,6 +10,7 @@ from .layout import STEP
 from .motion import drift, turn_all
 from .slots import ORIENTATION, STRETCHES
 from .stretching import stretch_box
+from .wall_motion import carry_wall
 
 
 @inlined
@@ -27,7 +28,6 @@ def go_back(world: World, scratch: Floats, time: float) -> None:
     if ORIENTATION:
         turn_all(particles, 0, len(particles.pose), scratch, -time)
     for w in range(len(walls.shape_kind)):
-        for c in range(3):
-            walls.displacement[w, c] -= time * walls.velocity[w, c]
+        carry_wall(walls, w, -time)
     if STRETCHES:
         stretch_box(box_of(particles), time_now(world) - time)

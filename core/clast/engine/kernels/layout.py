@@ -11,6 +11,11 @@ V, W = 0, 4  # twist and seen: velocity, 0, angular velocity, 0
 F, M = 0, 4  # load and acceleration: force, 0, moment, 0; acceleration and angular acceleration likewise
 INVERSE_MASS, INVERSE_INERTIA, MATERIAL, WEIGHT = 0, 1, 2, 3  # body: 1/m, 1/I, material, share that has weight
 
+# walls: pose holds displacement and orientation (w, x, y, z), twist velocity and angular velocity, reference the
+# displacement at the last neighbour search, the angle turned since, and how far from the centre what may touch is; all
+# but the first three columns only where some wall turns
+WALL_Q, WALL_W, ANGLE, ARM = 3, 3, 3, 4
+
 # box: one row each; 0 in directions that are not periodic
 SPAN, PER_SPAN, GROWTH = 0, 1, 2  # distance from an image to the next, its inverse, and how fast it grows
 SPAN_AT_START, LOGARITHMIC, ENGINEERING = 3, 4, 5  # from which it grows at constant rates of these strains

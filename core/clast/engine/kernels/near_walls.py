@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from clast.engine.compiler import compiled, inlined
 from clast.engine.state import Bytes, Floats, Particles, Walls
-from clast.maths.vec3 import Vec, sub
+from clast.maths.vec3 import Vec
 
 from .lanes import row
 from .layout import INVERSE_MASS, RADIUS
 from .slots import MANIFOLDS, WALLS, wall_nearest, wall_touches
+from .wall_frames import seen_from_wall
 
 
 @compiled
@@ -30,7 +31,7 @@ def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: fl
             for k in range(len(particles.pose)):
                 if particles.present[k] == 0 or particles.body[k, INVERSE_MASS] == 0.0:
                     continue
-                x = sub(row(particles.pose, k, 0), row(walls.displacement, w, 0))
+                x = seen_from_wall(walls, w, row(particles.pose, k, 0))
                 if reaches_wall(walls, w, x, particles.pose[k, RADIUS] + slack[k] + wall_slack):
                     near[w, k] = 1
 

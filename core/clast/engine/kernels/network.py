@@ -135,7 +135,7 @@ def write_wall_contact(world: World, p: int, time: float, place: int, output: Fl
     if place < len(output):
         n, lever = near.normal, radius - numbers.lever * (radius - near.distance)
         held = pairs.touching[p] != 0
-        touch, _ = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), held, time)
+        touch, _ = wall_touch(particles, walls, k, w, near, lever, held, time)
         history = fresh_history()
         if HISTORY > 0 and held:
             spin = 0.5 * dot(touch.spin_i, n) * time

@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Walls
-from clast.maths.vec3 import dot
+from clast.maths.rotation import turn
+from clast.maths.vec3 import Vec, dot, sub
 from clast.parts.wall import Pressed
 
 from .lanes import row
-from .layout import WALL_WORK
-from .slots import ANSWERING, wall_answer, wall_start, wall_velocity
+from .layout import ANGLE, ARM, WALL_Q, WALL_W, WALL_WORK
+from .slots import ANSWERING, WALLS_TURN, wall_answer, wall_spin, wall_start, wall_velocity
+from .wall_frames import power_on_wall, spin_of_wall
+
+
+@inlined
+def give_velocity(walls: Walls, w: int, velocity: Vec, time: float) -> None:
+    """Give wall w a velocity, and the angular velocity that it has at a time."""
+    for c in range(3):
+        walls.twist[w, c] = velocity[c]
+    if WALLS_TURN:
+        spin = wall_spin(walls, w, time)
+        for c in range(3):
+            walls.twist[w, WALL_W + c] = spin[c]
 
 
 @routine
 def start_walls(walls: Walls, time: float) -> None:
     """Give the walls the velocities they have before any force is known."""
     for w in range(len(walls.shape_kind)):
-        v = wall_start(walls, w, time)
-        for c in range(3):
-            walls.velocity[w, c] = v[c]
+        give_velocity(walls, w, wall_start(walls, w, time), time)
 
 
 @routine
@@ -30,12 +43,38 @@ def steer_walls(walls: Walls, mass: float, middle: float, span: float, since: fl
     """
     for w in range(len(walls.shape_kind)):
         if ANSWERING:
-            pressed = Pressed(row(walls.force, w, 0), mass, row(walls.velocity, w, 0), span, since)
-            v = wall_answer(walls, w, middle, pressed)
+            pressed = Pressed(row(walls.force, w, 0), mass, row(walls.twist, w, 0), span, since)
+            give_velocity(walls, w, wall_answer(walls, w, middle, pressed), middle)
         else:
-            v = wall_velocity(walls, w, middle, span)
-        for c in range(3):
-            walls.velocity[w, c] = v[c]
+            give_velocity(walls, w, wall_velocity(walls, w, middle, span), middle)
+
+
+@inlined
+def carry_wall(walls: Walls, w: int, time: float) -> None:
+    """Move and turn wall w with its velocities over some time."""
+    pose = walls.pose
+    for c in range(3):
+        pose[w, c] += time * walls.twist[w, c]
+    if WALLS_TURN:
+        q = (pose[w, WALL_Q], pose[w, WALL_Q + 1], pose[w, WALL_Q + 2], pose[w, WALL_Q + 3])
+        q = turn(q, spin_of_wall(walls, w), time)
+        for c in range(4):
+            pose[w, WALL_Q + c] = q[c]
+
+
+@inlined
+def strayed_wall(walls: Walls, w: int, turned_for: float, reach2: float) -> bool:
+    """Tell whether some place of wall w is too far from where it was as neighbours were searched.
+
+    ``turned_for`` is the time over which it has turned since this was asked the last time.
+    """
+    away = sub(row(walls.pose, w, 0), row(walls.reference, w, 0))
+    if WALLS_TURN:
+        spin = spin_of_wall(walls, w)
+        walls.reference[w, ANGLE] += abs(turned_for) * sqrt(dot(spin, spin))
+        farthest = sqrt(dot(away, away)) + walls.reference[w, ANGLE] * walls.reference[w, ARM]
+        return not farthest * farthest <= reach2
+    return not dot(away, away) <= reach2
 
 
 @routine
@@ -43,12 +82,8 @@ def move_walls(walls: Walls, drift_time: float, reach2: float) -> bool:
     """Move the walls over some time; tell whether one is too far from where its neighbours were searched."""
     stale = False
     for w in range(len(walls.shape_kind)):
-        away2 = 0.0
-        for c in range(3):
-            walls.displacement[w, c] += drift_time * walls.velocity[w, c]
-            away = walls.displacement[w, c] - walls.reference[w, c]
-            away2 += away * away
-        stale = stale or not away2 <= reach2
+        carry_wall(walls, w, drift_time)
+        stale = strayed_wall(walls, w, drift_time, reach2) or stale
     return stale
 
 
@@ -56,7 +91,7 @@ def move_walls(walls: Walls, drift_time: float, reach2: float) -> bool:
 def book_wall_work(walls: Walls, span: float, book: Floats) -> None:
     """Book half of the work that walls do on the way from one force evaluation to the next, with the forces at one."""
     for w in range(len(walls.shape_kind)):
-        book[WALL_WORK] -= 0.5 * span * dot(row(walls.force, w, 0), row(walls.velocity, w, 0))
+        book[WALL_WORK] -= 0.5 * span * power_on_wall(walls, w)
 
 
 @routine

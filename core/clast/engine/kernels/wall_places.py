@@ -6,21 +6,16 @@ from math import inf
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Particles, WallPairs, Walls
-from clast.maths.vec3 import Vec, dot, sub
+from clast.maths.vec3 import dot
 from clast.parts.wall import Nearest
 
 from .lanes import row
 from .layout import RADIUS, X
-from .slots import MANIFOLDS, REMEMBERS, wall_nearest, wall_touches
+from .slots import MANIFOLDS, REMEMBERS, WALLS_TURN, wall_nearest, wall_touches
+from .wall_frames import into_space, seen_from_wall
 
 STEADY = 0.9
 """Cosine of the angle by which the normal of a contact may turn between two force evaluations."""
-
-
-@inlined
-def seen_from_wall(particles: Particles, walls: Walls, k: int, w: int) -> Vec:
-    """Return the centre of particle k in the frame of wall w."""
-    return sub(row(particles.pose, k, X), row(walls.displacement, w, 0))
 
 
 @inlined
@@ -36,8 +31,8 @@ def place_on_wall(particles: Particles, walls: Walls, pairs: WallPairs, p: int, 
             share_out(particles, walls, pairs, p, particles.pose[k, RADIUS] + beyond)
         place = walls.places[pairs.slot[p]]
         return Nearest(place[0], (place[1], place[2], place[3]))
-    near: Nearest = wall_nearest(walls, w, seen_from_wall(particles, walls, k, w))
-    return near
+    near: Nearest = wall_nearest(walls, w, seen_from_wall(walls, w, row(particles.pose, k, X)))
+    return Nearest(near.distance, into_space(walls, w, near.normal))
 
 
 @routine
@@ -52,7 +47,10 @@ def share_out(particles: Particles, walls: Walls, pairs: WallPairs, first: int, 
     given, found = walls.places[:slots], walls.places[slots : 2 * slots + 1]
     for s in range(slots):
         given[s, 0] = inf
-    count = wall_touches(walls, w, seen_from_wall(particles, walls, k, w), reach, found)
+    count = wall_touches(walls, w, seen_from_wall(walls, w, row(particles.pose, k, X)), reach, found)
+    if WALLS_TURN:
+        for c in range(min(count, slots + 1)):
+            turn_into_space(walls, w, found[c])
     if count > slots:
         if found[slots, 0] < particles.pose[k, RADIUS]:
             walls.crowded[w] = 1
@@ -70,6 +68,14 @@ def share_out(particles: Particles, walls: Walls, pairs: WallPairs, first: int, 
                 s += 1
             if s < slots:
                 hand_over(given[s], found[c])
+
+
+@inlined
+def turn_into_space(walls: Walls, w: int, place: Floats) -> None:
+    """Give the normal of a place in space that was found in the frame of wall w."""
+    normal = into_space(walls, w, (place[1], place[2], place[3]))
+    for c in range(3):
+        place[1 + c] = normal[c]
 
 
 @inlined

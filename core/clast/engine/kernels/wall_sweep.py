@@ -6,8 +6,8 @@ from typing import Any
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
-from clast.maths.vec3 import ZERO, Vec, cross, dot, scale, sub
-from clast.parts.contact_law import NO_DRAG, Touch
+from clast.maths.vec3 import ZERO, Vec, add, cross, dot, scale, sub
+from clast.parts.contact_law import NO_DRAG, ContactLoad, Touch
 from clast.parts.wall import Nearest
 
 from .contact_lane import kept_drag
@@ -51,6 +51,7 @@ from .slots import (
     store_history,
 )
 from .touching import share_since_touch
+from .wall_frames import from_centre, spin_of_wall, velocity_of_wall
 from .wall_motion import book_wall_work
 from .wall_places import place_on_wall
 
@@ -81,14 +82,15 @@ def wall_constants(particles: Particles, walls: Walls, numbers: Numbers, k: int,
 
 @inlined
 def wall_touch(
-    particles: Particles, k: int, distance: float, n: Vec, lever: float, wall_velocity: Vec, held: bool, dt: float
+    particles: Particles, walls: Walls, k: int, w: int, near: Nearest, lever: float, held: bool, dt: float
 ) -> tuple[Touch, float]:
-    """Return the contact of particle k (i) with a wall (j), and the share of the way since touch.
+    """Return the contact of particle k (i) with wall w (j), and the share of the way since touch.
 
     ``held`` tells whether the contact was there at the forces before; it counts where contacts hold beyond touch.
     """
     seen, body = particles.seen, particles.body
-    radius = particles.pose[k, RADIUS]
+    radius, distance, n = particles.pose[k, RADIUS], near.distance, near.normal
+    wall_velocity = velocity_of_wall(walls, w, add(row(particles.pose, k, X), scale(lever, n)))
     velocity, spin, moved, share_moved = ZERO, ZERO, ZERO, 1.0
     if REMEMBERS:
         drift = sub(wall_velocity, row(particles.twist, k, V))
@@ -105,31 +107,31 @@ def wall_touch(
         normal=n,
         velocity=velocity,
         spin_i=spin,
-        spin_j=ZERO,
+        spin_j=spin_of_wall(walls, w),
         radius=radius,
         radius_i=radius,
         radius_j=0.0,
         inverse_mass=body[k, INVERSE_MASS],
         inverse_inertia=body[k, INVERSE_INERTIA],
         moved=moved,
-        turned=scale(-dt, row(particles.twist, k, W)) if TURNS else ZERO,
+        turned=scale(dt, sub(spin_of_wall(walls, w), row(particles.twist, k, W))) if TURNS else ZERO,
     )
     return touch, share_moved
 
 
 @inlined
-def push(particles: Particles, walls: Walls, k: int, w: int, force: Vec, torque: Vec, lever: float, n: Vec) -> None:
+def push(particles: Particles, walls: Walls, k: int, w: int, told: ContactLoad, lever: float, n: Vec) -> None:
     """Add a wall contact's loads to particle k and to wall w."""
-    load = particles.load
+    load, force = particles.load, told.force
     arm = cross(n, force)
-    place = sub(sub(row(particles.pose, k, X), row(walls.displacement, w, 0)), row(walls.centre, w, 0))
+    place = from_centre(walls, w, row(particles.pose, k, X))
     about = cross((place[0] + lever * n[0], place[1] + lever * n[1], place[2] + lever * n[2]), force)
     for c in range(3):
         load[k, F + c] -= force[c]
         walls.force[w, c] += force[c]
-        walls.moment[w, c] += about[c]
+        walls.moment[w, c] += about[c] + told.torque_j[c] if ROLLS else about[c]
         if SPIN:
-            load[k, M + c] += torque[c] - lever * arm[c]
+            load[k, M + c] += told.torque_i[c] - lever * arm[c]
 
 
 @inlined
@@ -145,14 +147,21 @@ def book_parting(
 ) -> None:
     """Book what the drag of the last evaluation still takes up while wall pair p parts, and what its springs held."""
     w, k = pairs.wall[p], pairs.particle[p]
-    last, apart = kept_drag(pairs.history, p), sub(row(walls.velocity, w, 0), row(particles.twist, k, V))
+    last, apart = kept_drag(pairs.history, p), parting_velocity(particles, walls, k, w, row(pairs.history, p, 0))
     book[VISCOUS] += 0.5 * dt * dot(last.force, apart)
-    book[ROLLING] -= 0.5 * dt * dot(last.torque, row(particles.twist, k, W))
+    book[ROLLING] -= 0.5 * dt * dot(last.torque, sub(row(particles.twist, k, W), spin_of_wall(walls, w)))
     if REACHES:
         book[STIFFENING] += pull_off_loss(walls, pairs, particles, numbers, p, near, dt)
     elif HISTORY > 0:
         constants = wall_constants(particles, walls, numbers, k, w)
         book[STIFFENING] += energy_left(particles.pose[k, RADIUS], 0.0, constants, pairs.history, p)
+
+
+@inlined
+def parting_velocity(particles: Particles, walls: Walls, k: int, w: int, n: Vec) -> Vec:
+    """Return the velocity of wall w, where particle k touched it with the normal n, against the particle."""
+    place = add(row(particles.pose, k, X), scale(particles.pose[k, RADIUS], n))
+    return sub(velocity_of_wall(walls, w, place), row(particles.twist, k, V))
 
 
 @inlined
@@ -162,7 +171,7 @@ def pull_off_loss(
     """Return the energy in J that wall pair p loses as it ends beyond touch."""
     w, k = pairs.wall[p], pairs.particle[p]
     radius = particles.pose[k, RADIUS]
-    opened = dt * dot(sub(row(walls.velocity, w, 0), row(particles.twist, k, V)), near.normal)
+    opened = dt * dot(parting_velocity(particles, walls, k, w, near.normal), near.normal)
     then = still(radius, 0.0, radius - near.distance + opened, near.normal)
     return energy_let_go(then, opened, wall_constants(particles, walls, numbers, k, w), pairs.history, p, dt)
 
@@ -184,14 +193,14 @@ def sweep_walls(
         n = near.normal
         lever = radius - numbers.lever * (radius - near.distance)
         held = pairs.touching[p] != 0
-        touch, share_moved = wall_touch(particles, k, near.distance, n, lever, row(walls.velocity, w, 0), held, dt)
+        touch, share_moved = wall_touch(particles, walls, k, w, near, lever, held, dt)
         history = fresh_history()
         if HISTORY > 0 and held:
-            spin = 0.5 * dot(touch.spin_i, n) * dt
+            spin = 0.5 * dot(add(touch.spin_i, touch.spin_j), n) * dt
             history = carry_history(load_history(pairs.history[p]), row(pairs.history, p, 0), n, spin)
         constants = wall_constants(particles, walls, numbers, k, w)
         load, kept = contact_load(touch, constants, history, abs(dt), CHOICES)  # some schemes step back
-        push(particles, walls, k, w, load.force, load.torque_i, lever, n)
+        push(particles, walls, k, w, load, lever, n)
         if CURVED_WALLS:
             walls.pressing[w] += dot(load.force, n)
         if HISTORY > 0 or (MANIFOLDS and REMEMBERS):
