@@ -30,6 +30,7 @@ def claims(motion: Motion, params: Any) -> list[Claim]:
             vectors(1.0),
         ),
         *_of_ways(motion, course),
+        *_of_spins(motion, params, course),
         claim("compiled code gives the same bits as plain Python", lambda: _compiled_alike(motion, course)),
     ]
 
@@ -41,6 +42,26 @@ def _of_ways(motion: Motion, course: Any) -> list[Claim]:
     return [
         claim("the way is what the velocities sum up to", lambda a, b: _summed(motion, course, *sorted((a, b))), *times)
     ]
+
+
+def _of_spins(motion: Motion, params: Any, course: Any) -> list[Claim]:
+    if motion.spin is None:
+        return []
+    return [
+        claim(
+            "the angular velocity is a number at every time, about a pivot that is a place",
+            lambda time: _turns(motion, params, course, time),
+            numbers(0.0, LONG),
+        )
+    ]
+
+
+def _turns(motion: Motion, params: Any, course: Any, time: float) -> None:
+    assert motion.spin is not None
+    assert motion.pivot is not None
+    told, place = motion.spin(course, time), motion.pivot(params)
+    good = all(len(each) == 3 and all(map(math.isfinite, each)) for each in (told, place))
+    must(good, lambda: f"at {time:g} s it turns with {told} rad/s about {place} m")
 
 
 def _summed(motion: Motion, course: Any, begin: float, end: float) -> None:
@@ -69,7 +90,7 @@ def _sound(motion: Motion, course: Any, time: float, force: Vec, before: Vec) ->
 
 
 def _compiled_alike(motion: Motion, course: Any) -> None:
-    ahead, answer, way = motion.velocity, motion.answer, motion.way
+    ahead, answer, way, spin = motion.velocity, motion.answer, motion.way, motion.spin
 
     def known(times: Any, forces: Any, course: Any, out: Any) -> None:
         for k in range(len(times)):
@@ -85,7 +106,11 @@ def _compiled_alike(motion: Motion, course: Any) -> None:
         for k in range(len(times)):
             out[k, 0], out[k, 1], out[k, 2] = way(course, times[k], times[k] + abs(forces[k, 0]))  # type: ignore[misc]
 
+    def turning(times: Any, forces: Any, course: Any, out: Any) -> None:
+        for k in range(len(times)):
+            out[k, 0], out[k, 1], out[k, 2] = spin(course, times[k])  # type: ignore[misc]
+
     draw = np.random.default_rng(13)
-    for sweep, function in ((known, ahead), (answering, answer), (going, way)):
+    for sweep, function in ((known, ahead), (answering, answer), (going, way), (turning, spin)):
         if function is not None:
             same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -22,6 +23,8 @@ def draw(motion: Motion, params: Params, figure: Figure) -> str:
     """Draw the three components, where they are not 0."""
     axes = figure.subplots()
     time = np.linspace(0.0, _until(motion, params), POINTS)
+    if motion.spin is not None:
+        return turned(motion, params, time, axes)
     velocity = told(motion, params, time) if motion.answer is None else answered(motion, params, time)
     for name, one in zip("xyz", velocity.T, strict=True):
         if np.any(one):
@@ -31,6 +34,19 @@ def draw(motion: Motion, params: Params, figure: Figure) -> str:
     if motion.answer is None:
         return "Velocity of the wall."
     return f"Velocity of the wall against a spring of {1e-3 * SPRING:g} kN/m that it touches at the start."
+
+
+def turned(motion: Motion, params: Params, time: Floats, axes: Any) -> str:
+    """Draw the three components of the angular velocity, where they are not 0."""
+    assert motion.spin is not None
+    course = motion.course(params)
+    spins = np.array([motion.spin(course, float(t)) for t in time])
+    for name, one in zip("xyz", spins.T, strict=True):
+        if np.any(one):
+            axes.plot(time, one, label=name)
+    axes.set(xlabel="time [s]", ylabel="angular velocity [rad/s]")
+    axes.legend()
+    return "Angular velocity of the wall about its pivot."
 
 
 def told(motion: Motion, params: Params, time: Floats) -> Floats:

@@ -27,8 +27,7 @@ class Block(Params):
     Limits
     ------
     One contact a particle: exact, because a box is convex. Contacts count as contacts with a flat wall, at edges and
-    corners too. For a box that holds particles take six planes: in its corners a particle touches three of them. It may
-    move, but does not turn.
+    corners too. For a box that holds particles take six planes: in its corners a particle touches three of them.
 
     Source
     ------

@@ -32,8 +32,7 @@ class Box(Params):
     Limits
     ------
     Faces are thin: a particle whose centre passes one is pushed out on the other side. A face that moves by itself, as
-    a piston does, or whose force is wanted alone, is a wall of its own: leave it ``open`` here. The box may move, but
-    does not turn.
+    a piston does, or whose force is wanted alone, is a wall of its own: leave it ``open`` here.
 
     Source
     ------

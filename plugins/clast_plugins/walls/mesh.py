@@ -56,7 +56,7 @@ class Mesh(Params):
     ``contacts`` contacts with the wall at a time; a run in which it touches more stops. In a funnel of 24 faces a
     sphere has 24. Round surfaces are what the file makes of them: faces should not be much smaller than contacts, or a
     hollow is touched in several places where a round one is touched once. A particle whose centre passes the surface is
-    pushed out behind: overlaps must stay small, as always. The wall may move, but does not turn.
+    pushed out behind: overlaps must stay small, as always.
 
     Source
     ------

@@ -32,8 +32,7 @@ class Sphere(Params):
 
     Limits
     ------
-    Contacts count as contacts with a flat wall, so the sphere must be much larger than the particles. It may move, but
-    does not turn.
+    Contacts count as contacts with a flat wall, so the sphere must be much larger than the particles.
     """
 
     centre: Annotated[Point, Field(examples=[[0, 0, 0]], description="Middle of the sphere")]

@@ -90,7 +90,7 @@ FAMILY = Family(
             "a ball rolls on a table that turns",
             "turning_walls",
             judge_turntable,
-            "J. A. Burns (1981), American Journal of Physics 49, 56, doi:10.1119/1.12605: circles at 2/7 of the rate",
+            "J. A. Burns (1981), American Journal of Physics 49, 56: circles at 2/7 of the rate",
             (needs.sticks,),
         ),
         Case(
