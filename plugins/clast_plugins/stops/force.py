@@ -21,7 +21,7 @@ class WallForce(Params):
 
     Equation
     --------
-    P ≥ ``above``,  or P ≤ ``below``
+    P ≥ ``above``,  or P ≤ ``below`` once P > ``below``
 
     Symbols
     -------
@@ -29,13 +29,15 @@ class WallForce(Params):
 
     Limits
     ------
-    It looks at samples, so the force may have gone beyond by what it changes from one sample to the next. ``below``
-    holds before anything touches the wall: it is for a stage that begins under load.
+    It looks at samples, so the force may have gone beyond by what it changes from one sample to the next. A force falls
+    ``below`` a value only from above it: until it has been there in this stage, the sample at which the stage began
+    counted, the condition waits, as for a wall that nothing touches yet. A stage that begins below and stays there is
+    never over.
     """
 
     wall: Annotated[str, Field(examples=["upper"], description="Name of the wall")]
     above: Annotated[Force | None, Field(examples=["10 N"], description="Force that must be reached from below")] = None
-    below: Annotated[Force | None, Field(description="Force that must be reached from above, instead")] = None
+    below: Annotated[Force | None, Field(description="Force to which it must fall from above, instead")] = None
     direction: Annotated[
         Direction | None, Field(description="Direction along which the force counts; none: its length counts")
     ] = None
@@ -56,21 +58,24 @@ def reads(params: WallForce) -> list[str]:
     return [f"force_{params.wall}_{c}_N" for c in "xyz"]
 
 
-def force_on(params: WallForce, curves: Curves) -> float:
-    """Return the force that counts at the last sample in N."""
-    vector: NDArray[np.float64] = np.array([curves[name][-1] for name in reads(params)])
+def forces_on(params: WallForce, curves: Curves) -> NDArray[np.float64]:
+    """Return the force that counts at every sample in N."""
+    x, y, z = (curves[name] for name in reads(params))
     if params.direction is None:
-        return float(np.linalg.norm(vector))
-    return float(vector @ np.array(params.direction)) / norm(params.direction)
+        return np.asarray(np.sqrt(x * x + y * y + z * z))
+    along = params.direction
+    return np.asarray((along[0] * x + along[1] * y + along[2] * z) / norm(along))
 
 
 def reached(params: WallForce, curves: Curves) -> str | None:
     """Tell that the force is reached."""
-    force = force_on(params, curves)
+    forces = forces_on(params, curves)
+    force = float(forces[-1])
     if params.above is not None:
         return f"the force on {params.wall} rose to {force:.4g} N" if force >= params.above else None
     assert params.below is not None
-    return f"the force on {params.wall} fell to {force:.4g} N" if force <= params.below else None
+    fell = force <= params.below < float(forces.max())
+    return f"the force on {params.wall} fell to {force:.4g} N" if fell else None
 
 
 @hookimpl

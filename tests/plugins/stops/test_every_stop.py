@@ -78,6 +78,21 @@ def test_a_force_on_a_wall_is_its_length_or_its_component():
     assert asked("force", {"above": None, "below": 4.99}, **columns) is None
 
 
+def test_a_force_falls_below_a_value_only_once_it_has_been_above():
+    def fell(*along: float, **changes: object) -> str | None:
+        columns = {f"force_upper_{c}_N": [0.0] * len(along) for c in "xy"} | {"force_upper_z_N": list(along)}
+        return asked("force", {"above": None, "below": 1.0, **changes}, **columns)
+
+    assert fell(0.0) is None
+    assert fell(0.0, 0.0, 1.0, 0.5) is None
+    assert fell(0.0, 1.5) is None
+    assert fell(0.0, -1.5, -0.5) == "the force on upper fell to 0.5 N"
+    assert fell(2.0, 1.0) == "the force on upper fell to 1 N"
+    assert fell(0.0, 0.0, below=0.0) is None
+    assert fell(0.0, 2.0, 0.0, below=0.0) == "the force on upper fell to 0 N"
+    assert fell(-3.0, -2.0, below=-1.0, direction=[0, 0, 1]) is None
+
+
 def test_time_counts_from_the_first_sample_and_stages_are_over_at_0():
     assert asked("elapsed", {"time": 2.0}, time_s=[5.0, 6.0]) is None
     assert asked("elapsed", {"time": 2.0}, time_s=[5.0, 7.0]) == "2 s have passed"
