@@ -155,3 +155,16 @@ def test_a_strain_at_the_end_of_stages_is_refused_as_nobody_knows_when(tmp_path)
 def test_a_wall_that_has_no_stages_has_none_to_be_over(tmp_path):
     with pytest.raises(ConfigError, match=r"stop.0.wall: the motion of walls.upper has no stage that ends"):
         load(write(tmp_path, CRUSH), ["stop=[{type: stages_over, wall: upper}]"])
+
+
+def test_stages_whose_last_one_never_ends_are_not_waited_for(tmp_path):
+    still = "{type: constant_velocity, velocity: [0, 0, 0]}"
+    staged = f"[{{type: constant_velocity, velocity: [0, 0, -1], until: {{type: elapsed, time: 1 ms}}}}, {still}]"
+    file = write(tmp_path, CRUSH)
+    changes = ["time.end={time: 1 ms}", f"walls.upper.motion={staged}"]
+    told = r"the last motion of walls.upper, number 1 \(constant_velocity\), is never over; give walls.upper.motion.1 a"
+    with pytest.raises(ConfigError, match=rf"stop.0.wall: stages_over can never hold: {told} condition 'until'"):
+        load(file, [*changes, "stop=[{type: stages_over, wall: upper}]"])
+    awaiting = "{type: constant_velocity, velocity: [0, 0, 0], until: {type: stages_over, wall: upper}}"
+    with pytest.raises(ConfigError, match=r"walls.lower.motion.until.wall: stages_over can never hold"):
+        load(file, [*changes, f"walls.lower.motion={awaiting}"])

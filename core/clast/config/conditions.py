@@ -1,4 +1,4 @@
-"""Conditions on the curves: whether a scene has what they look at."""
+"""Conditions on the curves: whether a scene has what they look at, and whether what they wait for can come."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ def blind_conditions(scene: SceneConfig) -> Iterator[Problem]:
                 "plates, or take another condition",
             )
         yield from _blind(scene, path, each, known)
+        yield from _in_vain(scene, path, each)
 
 
 def _blind(scene: SceneConfig, path: KeyPath, condition: Chosen, known: set[str]) -> Iterator[Problem]:
@@ -48,3 +49,17 @@ def _blind(scene: SceneConfig, path: KeyPath, condition: Chosen, known: set[str]
     else:
         text = f"{condition.name} looks at {lacking[0]!r}, which the curves of this scene lack"
         yield Problem(path, f"{text}; {suggestion(lacking[0], known)}")
+
+
+def _in_vain(scene: SceneConfig, path: KeyPath, condition: Chosen) -> Iterator[Problem]:
+    """Yield a problem for each wall that a condition waits for and whose last stage is never over."""
+    for name in condition.part.waits_for(condition.params):
+        wall = scene.walls.get(name)
+        if wall is None or not wall.staged or wall.stages[-1].until is not None or path[:2] == ("walls", name):
+            continue
+        last = len(wall.stages) - 1
+        yield Problem(
+            (*path, "wall"),
+            f"{condition.name} can never hold: the last motion of walls.{name}, number {last} "
+            f"({wall.stages[last].motion.name}), is never over; give walls.{name}.motion.{last} a condition 'until'",
+        )

@@ -23,7 +23,7 @@ ON_DEMAND = (UNBALANCE,)
 
 
 def nothing(params: Any) -> tuple[str, ...]:
-    """Return no column, whatever the parameters."""
+    """Return no name, whatever the parameters."""
     return ()
 
 
@@ -47,6 +47,8 @@ class Stop:
         Whether it looks at strain or stress, which only scenes with a compression have; others are refused.
     reads : (params) -> sequence of str, optional
         Columns that it reads and that depend on its parameters; scenes without them are refused.
+    waits_for : (params) -> sequence of str, optional
+        Walls all of whose stages must be over before it can hold; scenes in which they never are are refused.
 
     Raises
     ------
@@ -60,6 +62,7 @@ class Stop:
     columns: tuple[str, ...] = ()
     of_compression: bool = False
     reads: Callable[[Any], Sequence[str]] = nothing
+    waits_for: Callable[[Any], Sequence[str]] = nothing
 
     def __post_init__(self) -> None:
         for name in self.columns:

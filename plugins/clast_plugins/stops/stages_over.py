@@ -17,9 +17,9 @@ class StagesOver(Params):
 
     Limits
     ------
-    The last motion of the wall needs an ``until``, or its stages are never over. The run ends at the sample after the
-    one at which that condition held: there the wall stands still. ``stage_NAME`` in the curves is the number of the
-    stage, from 1 on, and 0 once all are over.
+    The last motion of the wall needs an ``until``: without it the stages are never over, and the scene is refused. The
+    run ends at the sample after the one at which that condition held: there the wall stands still. ``stage_NAME`` in
+    the curves is the number of the stage, from 1 on, and 0 once all are over.
     """
 
     wall: Annotated[str, Field(examples=["upper"], description="Name of the wall")]
@@ -28,6 +28,11 @@ class StagesOver(Params):
 def reads(params: StagesOver) -> tuple[str]:
     """Return the column of the wall's stages."""
     return (f"stage_{params.wall}",)
+
+
+def waits_for(params: StagesOver) -> tuple[str]:
+    """Return the wall."""
+    return (params.wall,)
 
 
 def reached(params: StagesOver, curves: Curves) -> str | None:
@@ -42,5 +47,11 @@ def clast_register(registry: Registry) -> None:
     """Offer the condition."""
     registry.stop(
         "stages_over",
-        Stop(summary="ends when a wall's stages are over", Params=StagesOver, reached=reached, reads=reads),
+        Stop(
+            summary="ends when a wall's stages are over",
+            Params=StagesOver,
+            reached=reached,
+            reads=reads,
+            waits_for=waits_for,
+        ),
     )
