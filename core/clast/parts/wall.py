@@ -195,6 +195,8 @@ class BodyForce:
     Numbers : NamedTuple type
         The numbers the compiled loop needs.
     numbers : (params, mass_scaling) -> Numbers
+        ``mass_scaling`` is the factor on all masses of the scene. Forces stay what they are without it, so an
+        acceleration is divided by it, and a load is not.
     acceleration : (numbers, x, v, time) -> vector, optional
         Acceleration of a particle in m/s².
     load : (numbers, x, v, w, radius, time) -> (vector, vector), optional

@@ -1,4 +1,4 @@
-"""What holds for every body force: what it does is a number everywhere, and its damping bounds how that changes."""
+"""What holds for every body force: a number everywhere, the same force for scaled masses, and a bounded slope."""
 
 from __future__ import annotations
 
@@ -20,6 +20,12 @@ RADIUS = 1e-3
 SMALL = 1e-3
 """Share of a change of velocity after which loads are asked again."""
 
+SCALED = 100.0
+"""Factor on all masses of the scene in which forces are asked again."""
+
+ROUNDING = 1e-9
+"""Share by which numbers that should be equal may differ."""
+
 Told = Callable[[Vec, Vec, Vec, float], tuple[Vec, Vec]]
 
 
@@ -28,6 +34,8 @@ def claims(force: BodyForce, params: Any) -> list[Claim]:
     known = force.numbers(params, 1.0)
     told = _told(force, known)
     place, motion, time = vectors(1.0), vectors(10.0), numbers(0.0, 10.0)
+    scaled = force.numbers(params, SCALED)
+    told_scaled = _told(force, scaled)
     found = [
         claim(
             "what it does is a number everywhere, at any velocity, spin and time",
@@ -36,13 +44,21 @@ def claims(force: BodyForce, params: Any) -> list[Claim]:
             motion,
             motion,
             time,
-        )
+        ),
+        claim(
+            "scaled masses leave forces what they are: accelerations are divided by mass_scaling, loads are not",
+            lambda x, v, w, time: _alike(force, told, told_scaled, x, v, w, time),
+            place,
+            motion,
+            motion,
+            time,
+        ),
     ]
     if force.damping is not None:
         found.append(
             claim(
                 "its damping is at least what its loads change with velocity and spin",
-                lambda x, v, d, time: _bounded(force, known, told, x, v, d, time),
+                lambda x, v, d, time: _bounded(force, (known, scaled), told, x, v, d, time),
                 place,
                 motion,
                 motion,
@@ -66,14 +82,29 @@ def _sound(told: Told, x: Vec, v: Vec, w: Vec, time: float) -> None:
     must(good, lambda: f"it tells {found} at {x} m, {v} m/s, {w} rad/s, {time:g} s")
 
 
-def _bounded(force: BodyForce, known: Any, told: Told, x: Vec, v: Vec, d: Vec, time: float) -> None:
+def _alike(force: BodyForce, told: Told, told_scaled: Told, x: Vec, v: Vec, w: Vec, time: float) -> None:
+    factor = SCALED if force.acceleration is not None else 1.0
+    what = "acceleration" if force.acceleration is not None else "load"
+    plain, scaled = np.array(told(x, v, w, time)), np.array(told_scaled(x, v, w, time))
+    wanted = plain / factor
+    must(
+        np.allclose(scaled, wanted, rtol=ROUNDING, atol=ROUNDING * float(np.abs(wanted).max())),
+        lambda: (
+            f"with masses times {SCALED:g} its {what} is {scaled.tolist()} at {x} m and {v} m/s; {wanted.tolist()} is "
+            "needed: see the second argument of 'numbers'"
+        ),
+    )
+
+
+def _bounded(force: BodyForce, known: tuple[Any, Any], told: Told, x: Vec, v: Vec, d: Vec, time: float) -> None:
     assert force.damping is not None
     faster = add(v, scale(SMALL, d))
     before, after = told(x, v, v, time), told(x, faster, faster, time)
     pushed, turned = ((np.array(b) - np.array(a)) / SMALL for a, b in zip(before, after, strict=True))
     size = float(np.linalg.norm(d))
     speeds = np.array([v, faster])
-    bounds = [float(each.max()) for each in force.damping(known, np.full(2, RADIUS), speeds)]
+    slopes = [force.damping(each, np.full(2, RADIUS), speeds) for each in known]  # scaled masses leave them alone
+    bounds = [min(float(each.max()) for each in of_both) for of_both in zip(*slopes, strict=True)]
     for what, change, bound in (("force", pushed, bounds[0]), ("torque", turned, bounds[1])):
         rate = float(np.linalg.norm(change))
         text = f"the {what} changes by {rate:.4g} for {d} at {v}, its damping tells {bound:.4g} times {size:.4g}"

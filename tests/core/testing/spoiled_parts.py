@@ -99,6 +99,7 @@ SPOILED = [
         "scale(-known.omega2, sub(x, known.centre))",
         "scale(float('inf'), sub(x, known.centre))",
     ),
+    ("body_force", "scaled masses leave forces", "params.frequency**2 / mass_scaling", "params.frequency**2"),
     (
         "bond_kinematics",
         "turning and moving",

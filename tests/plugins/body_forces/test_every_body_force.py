@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from math import pi
+from typing import NamedTuple
 
+import numpy as np
 import pytest
 
 from clast.config.scene import from_mapping
 from clast.engine.slots_text import slots_text
 from clast.engine.time_step import limits
 from clast.errors import PluginError
+from clast.maths.vec3 import ZERO, scale
 from clast.parts.params import Params
 from clast.parts.wall import BodyForce
 from clast.plugins.discovery import discover
 from clast.scene.build import build_scene
 from clast.scene.held import not_held
 from clast.scene.plan import blueprint
+from clast.testing.body_force import claims
+from clast.testing.claim import try_claims
 from clast.testing.kit import try_part
 from clast_plugins.body_forces.viscous_drag import Numbers, load
 
@@ -84,3 +89,24 @@ def test_particles_that_a_flow_carries_away_are_told():
 def test_a_body_force_is_an_acceleration_or_a_load():
     with pytest.raises(PluginError, match="needs either 'acceleration' or 'load'"):
         BodyForce("nothing", Params, Numbers, lambda params, scaling: None)
+
+
+class Brake(NamedTuple):
+    """What a brake takes for a velocity, and what it tells of that, in N s/m."""
+
+    taken: float
+    told: float
+
+
+@pytest.mark.parametrize(("spoiled", "claim"), [("taken", "scaled masses leave forces"), ("told", "its damping is")])
+def test_a_load_that_follows_scaled_masses_breaks_a_claim(spoiled, claim):
+    part = BodyForce(
+        summary="a brake",
+        Params=Params,
+        Numbers=Brake,
+        numbers=lambda params, mass_scaling: Brake(1.0, 1.0)._replace(**{spoiled: 1.0 / mass_scaling}),
+        load=lambda known, x, v, w, radius, time: (scale(-known.taken, v), ZERO),
+        damping=lambda known, radius, velocity: (np.full(len(radius), known.told), np.zeros(len(radius))),
+    )
+    tried = [each for each in claims(part, Params()) if not each.says.startswith("compiled")]
+    assert [outcome.says[: len(claim)] for outcome in try_claims(tried) if not outcome.passed] == [claim]
