@@ -19,7 +19,7 @@ from clast.plugins.discovery import discover, parts_of
 from clast.plugins.nearest import suggestion
 from clast.plugins.registry import Registered
 from clast.testing.claim import Outcome, try_claims
-from clast.testing.kit import claims_of
+from clast.testing.kit import claims_of, remarks_on
 from clast.testing.speed import BESIDE, Cost, cost
 
 Changes = Mapping[str, Mapping[str, Any]]
@@ -68,7 +68,10 @@ def _check_part(entry: Registered, changes: Mapping[str, Any], speed: bool, cons
         if console:
             _print(console, outcome, {each.problem for each in outcomes})
         outcomes.append(outcome)
-    passed = all(outcome.passed for outcome in outcomes)
+    passed, remarks = all(outcome.passed for outcome in outcomes), remarks_on(entry)
+    if console:
+        for remark in remarks:
+            console.print(f"  [yellow]remark[/]  {escape(remark)}")
     costs = _costs(entry, params, console) if speed and passed and entry.kind in BESIDE else []
     return {
         "kind": entry.kind,
@@ -76,6 +79,7 @@ def _check_part(entry: Registered, changes: Mapping[str, Any], speed: bool, cons
         "passed": passed,
         "problem": "",
         "claims": [asdict(outcome) for outcome in outcomes],
+        "remarks": remarks,
         "costs": [each._asdict() for each in costs],
     }
 

@@ -7,6 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from clast.config.describe import parameters
 from clast.parts.examples import example
 from clast.plugins.registry import Registered
 from clast.testing.claim import Claim, Outcome, try_claims
@@ -16,6 +17,17 @@ def claims_of(entry: Registered, params: Any) -> list[Claim]:
     """Return what a part with parameters must keep to; every kind has a module of its name here."""
     make: Callable[[Any, Any], list[Claim]] = import_module(f"clast.testing.{entry.kind}").claims
     return make(entry.part_for(params), params)
+
+
+def remarks_on(entry: Registered) -> list[str]:
+    """Return what holds a part back from nothing, but leaves its users without help: parameters nobody describes."""
+    bare = [each.name for each in parameters(entry.part.Params) if not each.meaning]
+    if not bare:
+        return []
+    return [
+        f"no description of {', '.join(bare)}: with Field(description=...), messages, 'clast plugins show', the schema "
+        "for editors and the page of the part say what to give"
+    ]
 
 
 def try_part(entry: Registered, changes: Mapping[str, Any] | None = None) -> list[Outcome]:

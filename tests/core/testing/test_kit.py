@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
 import pytest
 
+from clast.commands.check_parts import check
 from clast.parts.examples import example
-from clast.plugins.discovery import parts_of
+from clast.plugins.discovery import discover, parts_of
 from clast.plugins.new import starter_text
 from clast.plugins.registry import KINDS
 from clast.testing import assert_contract, claims_of
 from clast.testing.claim import try_claims
+from clast.testing.kit import remarks_on
 from tests.core.testing.spoiled_parts import SPOILED
 
 
@@ -85,3 +88,22 @@ def test_a_part_that_breaks_a_claim_fails_the_test_of_its_author(tmp_path: Path)
     (tmp_path / "spoiled.py").write_text(text)
     with pytest.raises(AssertionError, match=r"spoiled: an oscillator follows .*: the order is 2.00, 3 is told"):
         assert_contract(tmp_path / "spoiled.py")
+
+
+def test_a_parameter_without_a_description_is_a_remark_and_no_failure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = starter_text("stop", "terse").replace(', description="Stress at which the run ends"', "")
+    (tmp_path / "terse.py").write_text(text)
+    assert check(str(tmp_path / "terse.py"))
+    assert "remark  no description of stress: with Field(description=...)" in capsys.readouterr().out
+    assert check(str(tmp_path / "terse.py"), as_json=True)
+    assert len(json.loads(capsys.readouterr().out)[0]["remarks"]) == 1
+
+
+def test_every_parameter_of_clast_and_of_its_starting_files_is_described(tmp_path: Path) -> None:
+    started = []
+    for kind in KINDS:
+        (tmp_path / f"{kind}.py").write_text(starter_text(kind, f"my_{kind}"))
+        started += parts_of(tmp_path / f"{kind}.py")
+    assert [remark for entry in [*discover(), *started] for remark in remarks_on(entry)] == []
