@@ -7,12 +7,12 @@ primaries. Materials, contact settings and the rule of the time step are then th
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import dataclass
 
 import numpy as np
 
 from clast.config.scene import SceneConfig
+from clast.forecast_memory import COMPILER_BYTES, memory_concerns, run_memory, wall_memory
 from clast.forecast_results import results_text, size_concerns
 from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
@@ -32,10 +32,6 @@ PARTICLE_SECONDS, BOND_SECONDS, PAIR_SECONDS = 12e-9, 40e-9, 12e-9
 PAIRS_PER_PARTICLE = 3.0
 # taken where nobody can tell
 BONDS_PER_PARTICLE = 6.0
-# peak resident memory, measured with Python 3.11, numpy 2.4, numba 0.68: interpreter and libraries, and what compiling
-# adds; then of scenes of 428 to 990 584 primaries, most of it the springs of the time step's limit
-LOADED_BYTES, COMPILER_BYTES = 205e6, 110e6
-PARTICLE_BYTES, BOND_BYTES = 600.0, 720.0
 STAND_INS = 2
 """Particles that stand for a packing in the sample."""
 MANY_STEPS = 1e9
@@ -121,7 +117,8 @@ def forecast(config: SceneConfig) -> Forecast:
     steps = Gauge(config).last_step(step)
     check_tracks(config, _sure(Estimate(particles, band)), _sure(bonds))
     seconds = run_seconds(config, particles, count, steps)
-    memory = LOADED_BYTES + PARTICLE_BYTES * particles + BOND_BYTES * count
+    walls = wall_memory(config)
+    memory = run_memory(particles, count, walls)
     return Forecast(
         particles=particles,
         bonds=bonds,
@@ -134,7 +131,7 @@ def forecast(config: SceneConfig) -> Forecast:
             *(text for each in zip(config.generators, told, strict=True) for text in open_faces(config, *each)),
             *narrow_plates(config, 2.0 * float(sample.radius.min())),
             *time_concerns(config, steps, seconds),
-            *_memory_concerns(config, memory),
+            *memory_concerns(config, memory, walls),
             *size_concerns(config, particles, count),
         ),
         particles_band=band,
@@ -155,16 +152,6 @@ def time_concerns(config: SceneConfig, steps: int, seconds: float) -> list[str]:
     return [
         f"{config.document.where(('time',))}: time: {count_text(steps)} steps, about {duration(seconds)} on one core; "
         "take a larger time.step (time.mass_scaling raises its limit), end earlier, or move walls faster"
-    ]
-
-
-def _memory_concerns(config: SceneConfig, memory: float) -> list[str]:
-    there = float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
-    if memory <= there:
-        return []
-    return [
-        f"{config.document.where(('particles',))}: particles: about {memory / 1e6:,.0f} MB of memory are needed, "
-        f"this machine has {there / 1e6:,.0f} MB; take fewer particles"
     ]
 
 

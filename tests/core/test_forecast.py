@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +16,13 @@ from clast import load
 from clast.config.scene import SceneConfig
 from clast.engine.time_step import choose_step, limits, pair_limit
 from clast.errors import ConfigError
-from clast.forecast import COMPILER_BYTES, forecast, time_concerns
+from clast.forecast import forecast, time_concerns
+from clast.forecast_memory import COMPILER_BYTES
 from clast.forecast_results import frame_bytes, frame_count, size_concerns
 from clast.results.run import open_run
 from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from clast.scene.wall_rows import wall_rows
 from clast.session import run_scene
 from tests.scenes import COLLISION, CRUSH, write
 
@@ -140,6 +143,31 @@ def test_more_memory_than_the_machine_has_is_pointed_out(monkeypatch: pytest.Mon
     assert concern.endswith(
         "particles: about 207 MB of memory are needed, this machine has 205 MB; take fewer particles"
     )
+
+
+def _plate(cells: int) -> list[list[list[float]]]:
+    """Return the triangles of a plate of so many squares along each side."""
+    corners = [((x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)) for x in range(cells) for y in range(cells)]
+    return [
+        [[1e-4 * c for c in (*at, -100.0)] for at in (a, *more)] for a, b, c, d in corners for more in ((b, c), (c, d))
+    ]
+
+
+def test_the_triangles_of_a_wall_count_in_the_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = load(write(tmp_path, COLLISION))
+    meshed = scene.changed({"walls": {"plate": {"type": "mesh", "material": "glass", "triangles": _plate(50)}}})
+    told = forecast(meshed).memory - forecast(scene).memory
+    built = build_scene(meshed)
+    plan = blueprint(built)
+    tracemalloc.start()
+    wall_rows(built, plan)
+    _, rows = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert rows < told < 2.0 * rows  # the surface, its picture and what numbers in lists leave behind come on top
+    monkeypatch.setattr("clast.forecast_memory.SHAPE_NUMBER_BYTES", 1e5)
+    monkeypatch.setattr(os, "sysconf", {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 80_000}.get)
+    (concern,) = forecast(meshed).concerns
+    assert concern.endswith("of memory are needed, this machine has 328 MB; make surfaces coarser")
 
 
 RUN = """
