@@ -58,6 +58,44 @@ def test_a_scene_that_cannot_start_is_told_with_file_line_and_key(old: str, new:
     assert not Path("runs/scene").exists()
 
 
+@pytest.mark.parametrize(
+    ("wall", "message"),
+    [
+        (
+            "{type: mesh, material: glass,\n    file: none.stl,\n    unit: 1 mm}",
+            "scene.yaml:20:5: walls.floor.file: {folder}/none.stl: cannot be read",
+        ),
+        (
+            "{type: mesh, material: glass,\n    file: none.stl}",
+            "scene.yaml:20:5: walls.floor.file: a file needs a unit, such as '1 mm'",
+        ),
+        (
+            "{type: block, material: glass, lower: [0, 0, 0],\n    upper: [1, 0, 1]}",
+            "scene.yaml:20:5: walls.floor.upper: upper must be above lower along y; given 0 m and 0 m",
+        ),
+        (
+            "{type: box, material: glass, lower: [0, 0, 0], upper: [1, 1, 1],\n"
+            "    open: [left, right, front, back, bottom, top]}",
+            "scene.yaml:20:5: walls.floor.open: all six faces are open",
+        ),
+        (
+            "{type: plane, material: glass, point: [0, 0, -1 mm], normal: [0, 0, 1], motion: {type: table,\n"
+            "    direction: [0, 0, 1],\n    displacement: [[1 s, 0], [2 s, 1]]}}",
+            "scene.yaml:21:5: walls.floor.motion.displacement: the first row must be at the time 0; given 1 s",
+        ),
+        (
+            "{type: plane, material: glass, point: [0, 0, -1 mm], normal: [0, 0, 1], motion: [\n"
+            "    {type: constant_velocity, velocity: [0, 0, 1],\n    until: {type: force, wall: flor, above: 1 N}}]}",
+            "scene.yaml:21:26: walls.floor.motion.0.until.wall: there is no wall 'flor'; did you mean 'floor'?",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_wall_is_told_at_the_key_that_is_to_blame(wall: str, message: str) -> None:
+    old = PAIR[PAIR.index("  floor: ") : PAIR.index("time:")]
+    told = said(clast("check", scene((old, f"  floor: {wall}\n"))))
+    assert told.startswith(message.format(folder=Path().resolve()))
+
+
 def test_a_value_from_the_command_line_is_told_as_it_was_written() -> None:
     told = said(clast("run", scene(), "--set", "time.step=1 ms"))
     assert told.startswith("--set time.step=1 ms: time.step: 0.001 s is above the stability limit")

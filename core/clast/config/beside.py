@@ -17,11 +17,15 @@ from clast.maths.vec3 import Vec
 
 @dataclass(frozen=True)
 class WallChoice(Joined):
-    """A wall: its shape, what it is made of and how it moves: in one stage or several, or not at all."""
+    """A wall: its shape, what it is made of and how it moves: in one stage or several, or not at all.
+
+    ``listed`` tells whether its motion is written as a list, which may be one of a single stage.
+    """
 
     shape: Chosen
     material: str
     stages: tuple[Stage, ...]
+    listed: bool = False
 
     @property
     def motion(self) -> Chosen | None:
@@ -51,7 +55,7 @@ class WallChoice(Joined):
     def plain(self) -> dict[str, Any]:
         """Give the wall as the scene file would have it."""
         stages = [stage.plain() for stage in self.stages]
-        motion = {"motion": stages if len(stages) > 1 else stages[0]} if stages else {}
+        motion = {"motion": stages if self.listed else stages[0]} if stages else {}
         return {**self.shape.plain(), "material": self.material, **motion}
 
 
@@ -68,7 +72,8 @@ class NeighbourChoice(Joined):
 
 
 def _wall(shape: Chosen, material: str, motion: Stage | tuple[Stage, ...] | None) -> WallChoice:
-    return WallChoice(shape, material, (motion,) if isinstance(motion, Stage) else motion or ())
+    stages = (motion,) if isinstance(motion, Stage) else motion or ()
+    return WallChoice(shape, material, stages, listed=isinstance(motion, tuple))
 
 
 WALL = PartBeside("wall", WallSettings, _wall)

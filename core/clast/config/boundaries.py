@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from clast.config.problems import wrong
 from clast.config.quantities import Point, StrainRates
 from clast.parts.params import Params
 
@@ -35,10 +36,11 @@ class Domain(Params):
     @model_validator(mode="after")
     def _is_a_box(self) -> Domain:
         if any(low >= high for low, high in zip(self.lower, self.upper, strict=True)):
-            raise ValueError("every coordinate of 'lower' must be smaller than that of 'upper'")
+            raise wrong("upper", "every coordinate of 'lower' must be smaller than that of 'upper'")
         for axis, rate in zip("xyz", self.strain_rate or (), strict=False):
             if rate != 0.0 and axis not in self.periodic:
-                raise ValueError(f"strain_rate stretches the box along {axis}, where it is not periodic; add it there")
+                text = f"strain_rate stretches the box along {axis}, where it is not periodic; add it there"
+                raise wrong("strain_rate", text)
         return self
 
 

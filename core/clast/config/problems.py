@@ -63,6 +63,11 @@ def refuse(problems: Sequence[InitErrorDetails]) -> ValidationError:
     return ValidationError.from_exception_data("scene", list(problems))
 
 
+def wrong(key: str, text: str) -> ValidationError:
+    """Error to raise out of a validator of several keys that blames one of them: its line is the one that is told."""
+    return refuse([problem((key,), text)])
+
+
 def explain(error: ValidationError, model: type[BaseModel], also: Collection[str] = ()) -> list[InitErrorDetails]:
     """Put every error of a validation into plain words.
 

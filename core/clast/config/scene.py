@@ -280,7 +280,7 @@ def _chosen_in(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Chosen]]:
     elif isinstance(value, WallChoice):
         yield from _chosen_in(value.shape, path)
         for k, stage in enumerate(value.stages):
-            at = (*path, "motion", k) if len(value.stages) > 1 else (*path, "motion")
+            at = (*path, "motion", k) if value.listed else (*path, "motion")
             yield from _chosen_in(stage.motion, at)
             yield from _chosen_in(stage.until, (*at, "until"))
     elif isinstance(value, NeighbourChoice):

@@ -9,6 +9,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from clast.config.choice import Chosen, PartOf
 from clast.config.part_beside import Joined, PartBeside
+from clast.config.problems import problem, refuse
 from clast.maths.vec3 import Vec
 from clast.parts.params import Params
 
@@ -40,10 +41,10 @@ STAGE = PartBeside("motion", StageSettings, Stage)
 def _all_but_the_last_end(stages: tuple[Stage, ...]) -> tuple[Stage, ...]:
     for k, stage in enumerate(stages[:-1]):
         if stage.until is None:
-            raise ValueError(
+            text = (
                 f"motion {k} ({stage.motion.name}) is never over, so those behind it never begin; give it a condition "
-                "'until'"
             )
+            raise refuse([problem((k,), f"{text}'until'")])
     return stages
 
 

@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.files import InputFile
+from clast.config.problems import wrong
 from clast.config.quantities import Length, Point
 from clast.errors import ConfigError
 from clast.parts.generator import Gaps, Generator, Packing, Prediction, Site
@@ -73,19 +74,18 @@ class MeshAgglomerate(AgglomerateParams):
     @model_validator(mode="after")
     def _fits(self) -> MeshAgglomerate:
         if (self.file is None) == (self.triangles is None):
-            given = "both" if self.file is not None else "neither"
-            raise ValueError(f"exactly one of file and triangles is needed; given {given}")
+            text = "exactly one of file and triangles is needed; given "
+            raise wrong("triangles", f"{text}both") if self.file is not None else ValueError(f"{text}neither")
         if self.file is not None and (self.unit is None) == (self.diameter is None):
-            given = "both" if self.unit is not None else "neither"
-            raise ValueError(
-                f"an STL file does not tell lengths: exactly one of diameter and unit is needed; given {given}"
-            )
+            key, given = ("unit", "both") if self.unit is not None else ("file", "neither")
+            text = "an STL file does not tell lengths: exactly one of diameter and unit is needed"
+            raise wrong(key, f"{text}; given {given}")
         if self.file is None and self.unit is not None:
-            raise ValueError("a unit is that of a file; give a diameter, or leave the triangles as they are")
+            raise wrong("unit", "a unit is that of a file; give a diameter, or leave the triangles as they are")
         try:
             whole = body(self).whole
         except ConfigError as error:
-            raise ValueError(str(error)) from None
+            raise wrong("file" if self.file is not None else "triangles", str(error)) from None
         number_of_primaries(self, whole)
         refuse_senseless(self.macro_pores, whole, primary_of(self, whole))
         return self

@@ -8,6 +8,7 @@ from typing import Annotated, NamedTuple
 from pydantic import Field, model_validator
 
 from clast import hookimpl
+from clast.config.problems import wrong
 from clast.config.quantities import Direction, Force, Length, Stress, Time, Velocity
 from clast.maths.vec3 import Vec, dot, norm, scale
 from clast.parts.params import Params
@@ -77,11 +78,12 @@ class ForceControl(Params):
     @model_validator(mode="after")
     def _one_load(self) -> ForceControl:
         if (self.force is None) == (self.stress is None):
-            given = "both" if self.force is not None else "neither"
-            raise ValueError(f"exactly one of force and stress is needed; given {given}")
+            text = "exactly one of force and stress is needed; given "
+            raise wrong("stress", f"{text}both") if self.force is not None else ValueError(f"{text}neither")
         if (self.stress is None) != (self.diameter is None):
+            key = "stress" if self.diameter is None else "diameter"
             text = "a stress needs a diameter" if self.diameter is None else "a diameter needs a stress, not a force"
-            raise ValueError(f"{text}: the force is the stress times the area of that disc")
+            raise wrong(key, f"{text}: the force is the stress times the area of that disc")
         return self
 
 

@@ -11,6 +11,7 @@ from pydantic import Field, PrivateAttr, model_validator
 
 from clast import hookimpl
 from clast.config.files import InputFile
+from clast.config.problems import wrong
 from clast.config.quantities import Direction, Length, Time, Velocity
 from clast.errors import ConfigError
 from clast.maths.vec3 import Vec, norm, scale
@@ -74,32 +75,38 @@ class Table(Params):
             name: rows for name in ("displacement", "velocity", "file") if (rows := getattr(self, name)) is not None
         }
         if len(given) != 1:
-            found = " and ".join(given) or "none of them"
-            raise ValueError(f"exactly one of displacement, velocity and file is needed; given {found}")
-        (kind, rows), where = next(iter(given.items())), ""
+            text = "exactly one of displacement, velocity and file is needed; given "
+            names = list(given)
+            raise wrong(names[1], f"{text}{' and '.join(names)}") if names else ValueError(f"{text}none of them")
+        ((key, rows),) = given.items()
+        kind, where = key, ""
         if self.file is not None:
             where = f"{self.file}: "
             try:
                 kind, rows = read_course(self.file)
             except ConfigError as error:
-                raise ValueError(str(error)) from None
-        _refuse_bad_rows(where, kind, rows, self.after)
+                raise wrong(key, str(error)) from None
+        told = _bad_rows(kind, rows, self.after)
+        if told:
+            raise wrong(key, where + told)
         self._kind, self._rows = kind, rows
         return self
 
 
-def _refuse_bad_rows(where: str, kind: str, rows: Rows, after: str) -> None:
+def _bad_rows(kind: str, rows: Rows, after: str) -> str:
+    """Return what is wrong with rows; nothing where they are a course."""
     if len(rows) < 2:
-        raise ValueError(f"{where}at least two rows are needed; given {len(rows)}")
+        return f"at least two rows are needed; given {len(rows)}"
     if rows[0][0] != 0.0:
-        raise ValueError(f"{where}the first row must be at the time 0; given {rows[0][0]:g} s: shift the times")
+        return f"the first row must be at the time 0; given {rows[0][0]:g} s: shift the times"
     for k in range(1, len(rows)):
         if not rows[k][0] > rows[k - 1][0]:
             told = f"row {k + 1} is at {rows[k][0]:g} s, the one before at {rows[k - 1][0]:g} s"
-            raise ValueError(f"{where}times must rise from row to row; {told}")
+            return f"times must rise from row to row; {told}"
     if after == "repeat" and kind == "displacement" and rows[-1][1] != rows[0][1]:
         told = f"{rows[0][1]:g} m at first and {rows[-1][1]:g} m at last"
-        raise ValueError(f"{where}a displacement that is repeated must end where it begins; given {told}")
+        return f"a displacement that is repeated must end where it begins; given {told}"
+    return ""
 
 
 class Course(NamedTuple):

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from clast import hookimpl
+from clast.config.problems import wrong
 from clast.config.quantities import Direction, Force
 from clast.maths.vec3 import norm
 from clast.parts.params import Params
@@ -45,11 +46,12 @@ class WallForce(Params):
     @model_validator(mode="after")
     def _one_bound(self) -> WallForce:
         if (self.above is None) == (self.below is None):
-            given = "both" if self.above is not None else "neither"
-            raise ValueError(f"exactly one of above and below is needed; given {given}")
+            text = "exactly one of above and below is needed; given "
+            raise wrong("below", f"{text}both") if self.above is not None else ValueError(f"{text}neither")
         bound = self.above if self.above is not None else self.below
         if self.direction is None and bound is not None and bound < 0.0:
-            raise ValueError(f"the length of a force is never {bound:g} N; give a direction for its sign")
+            key = "above" if self.above is not None else "below"
+            raise wrong(key, f"the length of a force is never {bound:g} N; give a direction for its sign")
         return self
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from clast import hookimpl
+from clast.config.problems import wrong
 from clast.config.quantities import Point
 from clast.maths.vec3 import Vec, norm, scale
 from clast.parts.params import Params
@@ -41,7 +42,7 @@ class Block(Params):
     def _has_a_volume(self) -> Block:
         for axis, low, high in zip("xyz", self.lower, self.upper, strict=True):
             if not low < high:
-                raise ValueError(f"upper must be above lower along {axis}; given {high:g} m and {low:g} m")
+                raise wrong("upper", f"upper must be above lower along {axis}; given {high:g} m and {low:g} m")
         return self
 
 

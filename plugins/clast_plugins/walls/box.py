@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from clast import hookimpl
+from clast.config.problems import wrong
 from clast.config.quantities import Point
 from clast.maths.vec3 import Vec
 from clast.parts.params import Params
@@ -47,9 +48,9 @@ class Box(Params):
     def _has_faces_and_a_volume(self) -> Box:
         for axis, low, high in zip("xyz", self.lower, self.upper, strict=True):
             if not low < high:
-                raise ValueError(f"upper must be above lower along {axis}; given {high:g} m and {low:g} m")
+                raise wrong("upper", f"upper must be above lower along {axis}; given {high:g} m and {low:g} m")
         if set(self.open) == set(FACES):
-            raise ValueError("all six faces are open, so nothing is left of the box")
+            raise wrong("open", "all six faces are open, so nothing is left of the box")
         return self
 
 

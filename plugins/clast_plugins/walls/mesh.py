@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from clast import hookimpl
 from clast.config.files import InputFile
+from clast.config.problems import wrong
 from clast.config.quantities import Length, Point
 from clast.errors import ConfigError
 from clast.maths.vec3 import ZERO, Vec
@@ -85,15 +86,16 @@ class Mesh(Params):
     @model_validator(mode="after")
     def _is_a_surface(self) -> Mesh:
         if (self.file is None) == (self.triangles is None):
-            given = "both" if self.file is not None else "neither"
-            raise ValueError(f"exactly one of file and triangles is needed; given {given}")
+            text = "exactly one of file and triangles is needed; given "
+            raise wrong("triangles", f"{text}both") if self.file is not None else ValueError(f"{text}neither")
         if (self.file is None) != (self.unit is None):
+            key = "file" if self.unit is None else "unit"
             text = "a file needs a unit, such as '1 mm'" if self.unit is None else "a unit is that of a file"
-            raise ValueError(f"{text}: an STL file does not tell what its numbers mean")
+            raise wrong(key, f"{text}: an STL file does not tell what its numbers mean")
         try:
             surface(self)
         except ConfigError as error:
-            raise ValueError(str(error)) from None
+            raise wrong("file" if self.file is not None else "triangles", str(error)) from None
         return self
 
 

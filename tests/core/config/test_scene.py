@@ -171,7 +171,7 @@ def test_all_problems_are_told_at_once_in_the_order_of_the_file(load):
         (
             "time:",
             "boundaries: {domain: {lower: [0,0,0], upper: [1,1,0]}}\ntime:",
-            "boundaries.domain: every coordinate",
+            "boundaries.domain.upper: every coordinate",
         ),
         ("time:", "neighbours: {skin: aut}\ntime:", "neighbours.skin: 'aut' does not begin with a number"),
         ("time:", "particle: 1\ntime:", "particle: not a known key; did you mean 'particles'?"),
