@@ -43,14 +43,20 @@ class PluginError(ConfigError):
 
 
 class PackingError(ClastError):
-    """A generator cannot reach what was asked of it."""
+    """A generator has tried and cannot reach what was asked of it."""
 
 
 class RunError(ClastError):
-    """A run cannot start, go on, or be resumed."""
+    """A run cannot start or go on, or what came of it cannot be written."""
 
 
-class DamagedError(RunError):
+class RefusedError(RunError):
+    """A run, its folder or its files are not what is asked for or needed: nothing is begun."""
+
+    exit_code = 2
+
+
+class DamagedError(RefusedError):
     """A file of a run is damaged, as a kill in the middle of a write may leave it; the run has to start anew."""
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from clast.errors import ConfigError, RunError
+from clast.errors import ConfigError, RefusedError
 from clast.parts.writer import Export, Writer
 from clast.plugins.discovery import discover
 from clast.plugins.nearest import suggestion
@@ -52,7 +52,9 @@ def export_run(
         path = Path(output) if output is not None else run.folder / FOLDER / part.file
         _refuse_taken(path)
         if part.needs_frames and run.n_frames == 0:
-            raise RunError(f"{run.folder}: the run keeps no frames (output.frames: 0), so there is nothing to export")
+            raise RefusedError(
+                f"{run.folder}: the run keeps no frames (output.frames: 0), so there is nothing to export"
+            )
         path.parent.mkdir(parents=True, exist_ok=True)
         _write(part, export, run.only(chosen_frames(frames, run.n_frames)), path)
     return path
@@ -117,7 +119,7 @@ def _write(part: Writer, export: Export, run: Run, path: Path) -> None:
     with TemporaryDirectory(prefix=".exporting-", dir=path.parent) as drafts:
         written = part.write(run, params, Path(drafts) / part.file)
         if written.path is None:
-            raise RunError(f"{run.folder}: nothing is exported: {written.skipped}")
+            raise RefusedError(f"{run.folder}: nothing is exported: {written.skipped}")
         os.replace(written.path, path)
         for beside in Path(drafts).iterdir():
             os.replace(beside, path.with_name(beside.name))

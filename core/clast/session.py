@@ -12,7 +12,7 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
-from clast.errors import RunError
+from clast.errors import RefusedError, RunError
 from clast.observer import Ended
 from clast.parts.writer import Written
 from clast.results import checkpoint, curves, store, summary
@@ -113,7 +113,7 @@ def refuse_passed_end(simulation: Simulation) -> None:
     """
     if simulation.step > simulation.last_step:
         place = simulation.config.document.where(("time", "end"))
-        raise RunError(
+        raise RefusedError(
             f"{place}: time.end: the run is at step {simulation.step} already, and would end at step "
             f"{simulation.last_step}; to end it where it is, add --set 'time.end={{steps: {simulation.step}}}'"
         )

@@ -66,6 +66,10 @@ def test_a_scene_that_cannot_start_is_told_with_file_line_and_key(old: str, new:
             "scene.yaml:20:5: walls.floor.file: {folder}/none.stl: cannot be read",
         ),
         (
+            "{type: mesh, material: glass,\n    file: .,\n    unit: 1 mm}",
+            "scene.yaml:20:5: walls.floor.file: {folder}: cannot be read: Is a directory",
+        ),
+        (
             "{type: mesh, material: glass,\n    file: none.stl}",
             "scene.yaml:20:5: walls.floor.file: a file needs a unit, such as '1 mm'",
         ),

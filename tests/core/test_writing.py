@@ -284,13 +284,13 @@ def test_clast_write_says_what_is_wrong_with_a_name_or_a_folder(folder: Path, tm
     assert unknown.exit_code == 2
     assert "did you mean 'words'?" in unknown.output
     nowhere = CliRunner().invoke(main, ["write", str(tmp_path / "nowhere")])
-    assert nowhere.exit_code == 1
+    assert nowhere.exit_code == 2
     assert "give the run folder" in nowhere.output
 
 
 def test_clast_write_without_any_writer_names_them_all(scene: Path, tmp_path: Path) -> None:
     run_scene(load(scene, ["output.writers=[]"]), tmp_path / "run")
     told = CliRunner().invoke(main, ["write", str(tmp_path / "run")])
-    assert told.exit_code == 1
+    assert told.exit_code == 2
     assert "names no writer; name one or several: " in told.output
     assert "picture" in told.output

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
-from clast.errors import RunError
+from clast.errors import RefusedError
 from clast.results.whole_file import whole_file
 
 
@@ -85,6 +85,6 @@ def read_record(path: Path) -> Record:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         reason = f"{place}: {first['msg']}" if place else first["msg"]
-        raise RunError(
+        raise RefusedError(
             f"{path}: cannot be read ({reason}); run `clast calibrate` again, which writes it anew"
         ) from error

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from clast.commands.live_bar import LiveBar
-from clast.errors import RunError
+from clast.errors import RefusedError
 from clast.forecast import duration
 from clast.results.run_folder import locked
 from clast.studies import layout
@@ -70,7 +70,9 @@ def find_study(folder: Path) -> None:
     """
     if not (folder / layout.STUDY).is_file():
         found = "holds no study" if folder.exists() else "there is no such folder"
-        raise RunError(f"{folder}: {found}, so there is nothing to gather; name its folder with -o, or run it first")
+        raise RefusedError(
+            f"{folder}: {found}, so there is nothing to gather; name its folder with -o, or run it first"
+        )
 
 
 class Lines(Audience):

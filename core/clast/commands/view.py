@@ -8,7 +8,7 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
-from clast.errors import RunError
+from clast.errors import RefusedError, RunError
 
 RECORDING_FILE = "recording.rrd"
 
@@ -41,9 +41,9 @@ def _find_recording(folder: Path) -> Path:
     if recording.is_file():
         return recording
     if not folder.is_dir():
-        raise RunError(f"{folder}: there is no such run folder")
+        raise RefusedError(f"{folder}: there is no such run folder")
     advice = f"once the run has ended, `clast write {folder} recording` makes it"
-    raise RunError(f"{folder}: holds no {RECORDING_FILE}; {advice}")
+    raise RefusedError(f"{folder}: holds no {RECORDING_FILE}; {advice}")
 
 
 def _has_screen() -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from clast.config.scene import load
-from clast.errors import ConfigError, RunError
+from clast.errors import ConfigError, RefusedError, RunError
 from clast.results.reading import CONFIG_FILE
 from clast.results.run import open_run
 from clast.writing import launch
@@ -34,7 +34,7 @@ def write(folder: Path, names: Sequence[str] = (), overrides: Sequence[str] = ()
     names = [chosen.name for chosen in chosen_writers(scene, names)] or [each.name for each in scene.output.writers]
     if not names:
         known = ", ".join(scene.registry.names("writer"))
-        raise RunError(f"{folder}: its scene names no writer; name one or several: {known}")
+        raise RefusedError(f"{folder}: its scene names no writer; name one or several: {known}")
     written = launch.write(folder, names, lambda name: print(f"writing {name}", flush=True), overrides)
     for outcome in written.values():
         if outcome.path is not None:

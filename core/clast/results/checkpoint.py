@@ -16,7 +16,7 @@ from clast.config.scene import SceneConfig
 from clast.engine.cache_lines import on_line, on_lines
 from clast.engine.parts_used import changed, parts_of
 from clast.engine.timeline import Timeline
-from clast.errors import RunError, one_line
+from clast.errors import RefusedError, RunError, one_line
 from clast.results.room import in_memory
 from clast.simulation import Simulation
 from clast.soundness.energy import Balance
@@ -100,7 +100,7 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
     """
     found = _found(folder)
     if not found:
-        raise RunError(f"{folder}: no checkpoint to resume from; run without --resume to start anew")
+        raise RefusedError(f"{folder}: no checkpoint to resume from; run without --resume to start anew")
     reasons = []
     for path in found:
         try:
@@ -110,7 +110,7 @@ def load(folder: Path, simulation: Simulation) -> dict[str, Any]:
             return dict(about["notes"])
         except (OSError, KeyError, TypeError, ValueError, RuntimeError) as error:
             reasons.append(f"{path}: cannot be read ({one_line(error)})")
-    raise RunError(
+    raise RefusedError(
         f"{'; '.join(reasons)}: the run cannot go on from here. What it measured can still be read; start it anew in "
         "another folder with -o"
     )
@@ -189,7 +189,7 @@ def _refuse_other(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]) ->
 
 def _refuse_changed(path: Path, edited: list[str]) -> None:
     if edited:
-        raise RunError(
+        raise RefusedError(
             f"{path}: was computed before this changed: {', '.join(edited)}. Going on would mix two physics; start "
             "anew in another folder with -o"
         )
@@ -204,7 +204,7 @@ def _refuse_differing(path: Path, old: Mapping[str, Any], new: Mapping[str, Any]
     ]
     if differing:
         shown = "; ".join(f"{key}: {before.get(key)!r} there, {now.get(key)!r} here" for key in differing[:5])
-        raise RunError(
+        raise RefusedError(
             f"{path}: belongs to another scene, so it cannot be resumed ({shown}). "
             "Resume with the same file and --set options, or choose another folder with -o"
         )

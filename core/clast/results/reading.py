@@ -10,7 +10,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from clast.errors import ClastError, DamagedError, RunError, one_line
+from clast.errors import ClastError, DamagedError, RefusedError, one_line
 
 RESULTS_FILE = "results.h5"
 CONFIG_FILE = "config.yaml"
@@ -25,15 +25,15 @@ def open_results(folder: Path) -> Any:
     path = folder / RESULTS_FILE
     if not folder.is_dir():
         what = "a file, not a folder" if folder.exists() else "not there"
-        raise RunError(f"{folder}: {what}; give the run folder, the one that holds {RESULTS_FILE}")
+        raise RefusedError(f"{folder}: {what}; give the run folder, the one that holds {RESULTS_FILE}")
     if not path.is_file():
-        raise RunError(f"{folder}: not a run folder, it holds no {RESULTS_FILE}; start with `clast run FILE`")
+        raise RefusedError(f"{folder}: not a run folder, it holds no {RESULTS_FILE}; start with `clast run FILE`")
     try:
         return h5py.File(path, "r")
     except BlockingIOError as error:
         raise _busy(path) from error
     except PermissionError as error:
-        raise RunError(f"{path}: no permission to read it") from error
+        raise RefusedError(f"{path}: no permission to read it") from error
     except (OSError, RuntimeError) as error:
         raise unreadable(path, one_line(error)) from error
 
@@ -55,14 +55,14 @@ def check_contents(path: Path, file: Any) -> None:
     if schema is None:
         raise unreadable(path, "it was not written by Clast: no `schema` attribute")
     if int(schema) != SCHEMA:
-        raise RunError(f"{path}: written in schema {schema}, this version of Clast reads {SCHEMA}; run it again")
+        raise RefusedError(f"{path}: written in schema {schema}, this version of Clast reads {SCHEMA}; run it again")
     missing = [name for name in _NEEDED_GROUPS if name not in file]
     if missing:
         raise unreadable(path, f"it holds no {', '.join(missing)}")
 
 
-def _busy(path: Path) -> RunError:
-    return RunError(
+def _busy(path: Path) -> RefusedError:
+    return RefusedError(
         f"{path}: a running simulation is writing it; wait until it has ended, "
         "or stop it with Ctrl-C (it can be resumed)"
     )
@@ -91,7 +91,7 @@ def read_json(path: Path) -> dict[str, Any]:
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
-        raise RunError(f"{path}: cannot be read ({one_line(error)})") from error
+        raise RefusedError(f"{path}: cannot be read ({one_line(error)})") from error
     return content if isinstance(content, dict) else {}
 
 
@@ -104,5 +104,5 @@ def read_yaml(path: Path) -> dict[str, Any]:
     try:
         content = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise RunError(f"{path}: cannot be read ({one_line(error)})") from error
+        raise RefusedError(f"{path}: cannot be read ({one_line(error)})") from error
     return content if isinstance(content, dict) else {}

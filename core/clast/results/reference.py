@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from clast.errors import RunError
+from clast.errors import RefusedError
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def read_references(path: Path, config: dict[str, Any]) -> list[Reference]:
     try:
         return [_reference(entry) for entry in config.get("reference") or []]
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise RunError(f"{path}: reference: cannot be read ({error!r})") from error
+        raise RefusedError(f"{path}: reference: cannot be read ({error!r})") from error
 
 
 def _reference(entry: dict[str, Any]) -> Reference:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from clast.errors import RunError
+from clast.errors import RefusedError, RunError
 from clast.results import checkpoint, curves, summary
 from clast.results.reading import RESULTS_FILE, open_results
+
+FULL = (errno.ENOSPC, errno.EDQUOT)
+"""What a disk says that has no room: another folder name is no remedy, so the input is not what is wrong."""
 
 
 @contextmanager
@@ -28,7 +32,7 @@ def run_folder(folder: Path, resume: bool) -> Iterator[bool]:
     """
     made = not folder.exists()
     if resume and not (folder / RESULTS_FILE).exists():
-        raise RunError(f"{folder}: no run to resume here; name its folder with -o, or run without --resume")
+        raise RefusedError(f"{folder}: no run to resume here; name its folder with -o, or run without --resume")
     _make(folder)
     try:
         with locked(folder):
@@ -47,7 +51,7 @@ def _goes_on(folder: Path, resume: bool) -> bool:
         _refuse_results_without_checkpoint(folder)
         return False
     if not resume:
-        raise RunError(
+        raise RefusedError(
             f"{folder}: holds a run already; add --resume to go on with it, or choose another folder with -o"
         )
     return True
@@ -55,14 +59,15 @@ def _goes_on(folder: Path, resume: bool) -> bool:
 
 def _make(folder: Path) -> None:
     if folder.exists() and not folder.is_dir():
-        raise RunError(f"{folder}: is a file, and the folder of the run is needed; choose another with -o")
+        raise RefusedError(f"{folder}: is a file, and the folder of the run is needed; choose another with -o")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe = folder / ".probe"
         probe.touch()
         probe.unlink()
     except OSError as error:
-        raise RunError(f"{folder}: cannot be written ({error.strerror}); choose another folder with -o") from error
+        kind = RunError if error.errno in FULL else RefusedError
+        raise kind(f"{folder}: cannot be written ({error.strerror}); choose another folder with -o") from error
 
 
 @contextmanager
@@ -79,7 +84,7 @@ def locked(folder: Path, what: str = "run") -> Iterator[None]:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise RunError(
+            raise RefusedError(
                 f"{folder}: another {what} is writing into it; wait until it has ended, "
                 "or choose another folder with -o"
             ) from error
@@ -92,7 +97,7 @@ def locked(folder: Path, what: str = "run") -> Iterator[None]:
 
 def _refuse_results_without_checkpoint(folder: Path) -> None:
     if any((folder / name).exists() for name in (curves.FILE, summary.FILE)) or _has_rows(folder):
-        raise RunError(
+        raise RefusedError(
             f"{folder}: holds results but no checkpoint, so the run in it cannot go on, and is not overwritten either; "
             "choose another folder with -o, or delete this one"
         )
@@ -118,7 +123,7 @@ def _refuse_foreign(folder: Path) -> None:
     held = sorted(each.name for each in folder.iterdir() if not (each.name.startswith(".") or _is_empty_file(each)))
     if held:
         more = f" and {len(held) - 1} more" if len(held) > 1 else ""
-        raise RunError(
+        raise RefusedError(
             f"{folder}: is not empty and not the folder of a run, it holds {held[0]}{more}; choose another with -o"
         )
 

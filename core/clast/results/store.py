@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.tables import crack_rows
-from clast.errors import DamagedError, RunError, one_line
+from clast.errors import DamagedError, RefusedError, RunError, one_line
 from clast.results.checkpoint import how_to_go_on
 from clast.results.contacts import GROUP as CONTACTS
 from clast.results.room import SPARE, NoRoomError, in_memory, room_beyond
@@ -101,11 +101,11 @@ class Store:
         try:
             self.file = h5py.File(self.path, "r+")
         except BlockingIOError as error:
-            raise RunError(
+            raise RefusedError(
                 f"{self.path}: another program has it open, perhaps one that reads it; close that and try again"
             ) from error
         except PermissionError as error:
-            raise RunError(f"{self.path}: no permission to write it") from error
+            raise RefusedError(f"{self.path}: no permission to write it") from error
         except (OSError, RuntimeError) as error:
             raise _damaged(self.path, error) from error
 

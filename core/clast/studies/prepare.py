@@ -7,7 +7,7 @@ from pathlib import Path
 
 from clast.config.document import Document
 from clast.config.yaml_loader import dump_yaml
-from clast.errors import RunError
+from clast.errors import RefusedError
 from clast.results.reading import read_yaml
 from clast.results.whole_file import whole_file
 from clast.studies import layout
@@ -41,11 +41,11 @@ def settle(folder: Path, document: Document, title: str, found: Sequence[Task], 
         If the folder holds something else.
     """
     if folder.is_dir() and any(folder.iterdir()) and not (folder / name).exists():
-        raise RunError(f"{folder}: holds something else; choose another folder with -o")
+        raise RefusedError(f"{folder}: holds something else; choose another folder with -o")
     key = Path(name).stem
     before = read_yaml(folder / name).get(key, title)
     if before != title:
-        raise RunError(f"{folder}: holds the {key} {before!r}; choose another folder for {title!r} with -o")
+        raise RefusedError(f"{folder}: holds the {key} {before!r}; choose another folder for {title!r} with -o")
     (folder / "runs").mkdir(parents=True, exist_ok=True)
     (folder / "scenes").mkdir(exist_ok=True)
     with whole_file(folder / name) as draft:

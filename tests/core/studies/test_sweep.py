@@ -113,7 +113,7 @@ def test_a_folder_without_a_study_has_nothing_to_gather(tmp_path: Path, made: bo
     if made:
         (tmp_path / "out").mkdir()
     result = sweep(study_file(tmp_path, vary={YIELD: ["1 MPa"]}), tmp_path / "out", "--collect")
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     assert f"{tmp_path / 'out'}: {told}, so there is nothing to gather" in result.output
     assert (tmp_path / "out").exists() == made
     assert not list((tmp_path / "out").glob("*"))

@@ -156,7 +156,7 @@ def test_what_a_calibration_really_writes_can_be_read(tmp_path: Path) -> None:
 
 def test_a_calibration_comes_alone(ended: Path) -> None:
     result = report(ended, ended / "runs" / "a-1")
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     assert "give its folder alone" in result.stderr
 
 
@@ -174,7 +174,7 @@ def test_a_calibration_comes_alone(ended: Path) -> None:
 def test_a_broken_file_is_one_message(ended: Path, name: str, content: bytes, told: str) -> None:
     (ended / name).write_bytes(content)
     result = report(ended)
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     assert told in result.stderr
     assert result.stderr.count("\n") == 1
     assert not (ended / "report.html").exists()

@@ -242,7 +242,7 @@ def test_a_folder_that_is_no_run_is_one_message(crushed: Path, tmp_path: Path) -
     page = tmp_path / "page.html"
     for folder, told in ((tmp_path / "none", "not there"), (tmp_path, "not a run folder, it holds no results.h5")):
         result = report(crushed, folder, "-o", page)
-        assert (result.exit_code, result.stdout) == (1, "")
+        assert (result.exit_code, result.stdout) == (2, "")
         assert result.stderr.startswith(f"{folder}: {told}")
         assert result.stderr.count("\n") == 1
     assert not page.exists()

@@ -158,7 +158,7 @@ def test_a_run_of_a_sweep_has_a_report_like_any_other(sweep: Path) -> None:
 
 def test_a_sweep_comes_alone(sweep: Path) -> None:
     result = report(sweep, sweep / "runs" / "p0r0")
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     assert "give its folder alone" in result.stderr
 
 
@@ -177,6 +177,6 @@ def test_a_broken_table_is_one_message(sweep: Path, name: str, content: bytes | 
     if content is not None:
         (sweep / name).write_bytes(content)
     result = report(sweep)
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     assert told in result.stderr
     assert result.stderr.count("\n") == 1

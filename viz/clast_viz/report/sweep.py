@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from clast.errors import RunError
+from clast.errors import RefusedError
 from clast.results.reading import read_yaml
 from clast.studies.layout import ENSEMBLE, RUNS, STATISTICS, STUDY, VERDICTS
 from clast_viz.report import ended
@@ -63,7 +63,7 @@ def read_sweep(folder: Path) -> Sweep:
         If there is no table of runs yet, or a table is not what a sweep writes.
     """
     if not (folder / RUNS).is_file():
-        raise RunError(f"{folder}: a sweep without {RUNS}; `clast sweep` writes it when its runs have ended")
+        raise RefusedError(f"{folder}: a sweep without {RUNS}; `clast sweep` writes it when its runs have ended")
     runs = read_table(folder / RUNS, ended.COLUMNS, COMMAND)
     return Sweep(
         folder=folder,

@@ -6,7 +6,7 @@ import csv
 from collections.abc import Sequence
 from pathlib import Path
 
-from clast.errors import RunError, one_line
+from clast.errors import RefusedError, one_line
 
 Record = dict[str, str]
 
@@ -41,6 +41,6 @@ def read_table(path: Path, needed: Sequence[str], command: str) -> list[Record]:
     return rows
 
 
-def unreadable(path: Path, reason: str, command: str) -> RunError:
+def unreadable(path: Path, reason: str, command: str) -> RefusedError:
     """Build the error for a file that is not what a command writes."""
-    return RunError(f"{path}: cannot be read ({reason}); run `{command}` again, which writes it anew")
+    return RefusedError(f"{path}: cannot be read ({reason}); run `{command}` again, which writes it anew")

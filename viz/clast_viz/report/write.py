@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from clast.errors import RunError
+from clast.errors import RefusedError
 from clast_viz.report import calibration_page, run_page, sweep_page
 from clast_viz.report.calibration import is_calibration, read_calibration
 from clast_viz.report.html import write_page
@@ -41,7 +41,7 @@ def write_report(folders: Sequence[Path], page: Path) -> list[str]:
 
 def _write_study(folders: Sequence[Path], page: Path) -> None:
     if len(folders) > 1:
-        raise RunError(
+        raise RefusedError(
             "a sweep or a calibration has a report of its own; give its folder alone, or folders of runs only"
         )
     folder = folders[0]

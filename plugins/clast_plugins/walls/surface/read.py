@@ -62,7 +62,10 @@ def _read(path: Path, version: tuple[int, int]) -> Triangles:
     """Read a file; once for each version of it."""
     if version[1] > MOST_BYTES:
         raise ConfigError(f"{path}: has {version[1]:,} bytes, more than {MOST:,} triangles; make it coarser")
-    content = path.read_bytes()
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise ConfigError(f"{path}: cannot be read: {error.strerror}; check the path") from None
     triangles = _of_text(path, content) if _is_text(content) else _of_binary(path, content)
     refuse_bad(f"{path}: ", triangles)
     triangles.setflags(write=False)
