@@ -63,6 +63,15 @@ output: {samples: 400, frames: 4, writers: [], tracks: {particles: [0, 1]}}
 """Two equal spheres that meet head-on."""
 
 
+def stl_text(triangles: list[list[list[float]]]) -> str:
+    """Return triangles as the text of an STL file."""
+    lines = ["solid made"]
+    for each in triangles:
+        corners = [f"vertex {x} {y} {z}" for x, y, z in each]
+        lines += ["facet normal 0 0 0", "outer loop", *corners, "endloop", "endfacet"]
+    return "\n".join([*lines, "endsolid made\n"])
+
+
 def write(folder: Path, text: str, name: str = "scene.yaml") -> Path:
     """Write a scene file and return its path."""
     path = folder / name

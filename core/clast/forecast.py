@@ -18,9 +18,9 @@ from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffe
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
 from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
+from clast.scene.concerns import concerns_of_parts, rooms_left_open
 from clast.scene.foretold import bonded_gaps, foretold
 from clast.scene.narrow_plates import narrow_plates
-from clast.scene.rooms import open_faces
 from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
 from clast.scene.start import check_bonds, check_contacts, check_start, check_tracks
@@ -128,7 +128,8 @@ def forecast(config: SceneConfig) -> Forecast:
         seconds=seconds,
         notes=step_notes(config, bool(packed), count > 0.0, scattered=stiffest is not sample),
         concerns=(
-            *(text for each in zip(config.generators, told, strict=True) for text in open_faces(config, *each)),
+            *concerns_of_parts(config, told),
+            *rooms_left_open(config, told),
             *narrow_plates(config, 2.0 * float(sample.radius.min())),
             *time_concerns(config, steps, seconds),
             *memory_concerns(config, memory, walls),

@@ -151,6 +151,8 @@ class Prediction:
         How sure ``particles`` is, as ``Estimate.band``.
     room : FilledRoom or None
         What it fills, if it takes walls for granted: they are held against it before it packs.
+    concerns : tuple of str
+        What the user should know before anything is packed, one sentence each, such as what was left out of a file.
     """
 
     particles: int
@@ -159,6 +161,7 @@ class Prediction:
     bonds: Estimate | None = None
     particles_band: float = 0.0
     room: FilledRoom | None = None
+    concerns: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -65,6 +65,11 @@ def once(params: Any) -> int:
     return 1
 
 
+def nothing_to_tell(params: Any) -> tuple[str, ...]:
+    """Return no sentence, whatever the parameters."""
+    return ()
+
+
 @dataclass(frozen=True)
 class Wall:
     """The part a plugin registers with ``registry.wall(name, Wall(...))``.
@@ -97,6 +102,8 @@ class Wall:
         Length in m of the closed line that a tube's inner face is in its cross-section; None for what is no tube.
     section : (params) -> float, optional
         Area in m² inside that line; with it a compression in the tube is held against it.
+    concerns : (params) -> sequence of str, optional
+        What the user should know before the run, one sentence each, such as what was left out of a file.
     """
 
     summary: str
@@ -111,6 +118,7 @@ class Wall:
     section: Callable[[Any], float] | None = None
     touches: Callable[..., int] | None = None
     slots: Callable[[Any], int] = once
+    concerns: Callable[[Any], Sequence[str]] = nothing_to_tell
 
 
 @dataclass(frozen=True)

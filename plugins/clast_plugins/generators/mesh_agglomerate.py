@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated
 
@@ -21,7 +22,7 @@ from clast_plugins.generators.packing.closed_surface import ClosedSurface, close
 from clast_plugins.generators.packing.fill import Body, body_of
 from clast_plugins.generators.packing.macro_pores import refuse_senseless
 from clast_plugins.generators.packing.spheres import millimetres, number_of_primaries, primary_of
-from clast_plugins.walls.surface.read import Triangles, refuse_bad, triangles_of, version
+from clast_plugins.walls.surface.read import Content, content_of, refuse_bad, version
 
 
 class MeshAgglomerate(AgglomerateParams):
@@ -111,13 +112,13 @@ def _body(
     unit: float | None,
     diameter: float | None,
 ) -> Body:
-    where = f"{file}: the surface " if file is not None else "the surface "
     if file is not None:
-        found: Triangles = triangles_of(file) * (unit or 1.0)
+        content = content_of(file)
+        where = f"{file}: {''.join(f'{text}; ' for text in content.left_out)}the surface "
     else:
-        found = np.array(triangles, float).reshape(-1, 3, 3)
-        refuse_bad("", found)
-    about = closed(found, where)
+        content, where = Content(np.array(triangles, float).reshape(-1, 3, 3), 0), "the surface "
+        refuse_bad(content.triangles)
+    about = closed(content.triangles * (unit or 1.0), where)
     if diameter is not None:
         about = about * (diameter / math.cbrt(6.0 * ClosedSurface(about).volume / math.pi))
     room = ClosedSurface(about)
@@ -127,7 +128,8 @@ def _body(
 
 def predict(params: MeshAgglomerate, site: Site, gaps: Gaps | None) -> Prediction:
     """Return how many primaries there will be, and about how many bonds."""
-    return predict_agglomerate(params, body(params), gaps)
+    left_out = content_of(params.file).left_out if params.file is not None else ()
+    return replace(predict_agglomerate(params, body(params), gaps), concerns=left_out)
 
 
 def generate(params: MeshAgglomerate, site: Site) -> Packing:

@@ -19,7 +19,7 @@ from clast.maths.vec3 import ZERO, Vec
 from clast.parts.params import Params
 from clast.parts.wall import Nearest, Wall
 from clast.plugins.registry import Registry
-from clast_plugins.walls.surface.read import Triangles, refuse_bad, triangles_of, version
+from clast_plugins.walls.surface.read import Triangles, content_of, refuse_bad, version
 from clast_plugins.walls.surface.tree import Tree, planted
 from clast_plugins.walls.surface.triangle import WIDTH, Foot, foot_on, outside, rows_of
 
@@ -109,10 +109,10 @@ def surface(params: Mesh) -> Triangles:
     """
     if params.file is not None:
         assert params.unit is not None
-        found = triangles_of(params.file) * params.unit
+        found = content_of(params.file).triangles * params.unit
     else:
         found = np.array(params.triangles, float).reshape(-1, 3, 3)
-        refuse_bad("", found)
+        refuse_bad(found)
     return np.asarray(found + np.array(params.origin))
 
 
@@ -230,6 +230,11 @@ def slots(params: Mesh) -> int:
     return params.contacts
 
 
+def concerns(params: Mesh) -> tuple[str, ...]:
+    """Return a sentence about triangles of the file that are left out."""
+    return content_of(params.file).left_out if params.file is not None else ()
+
+
 def centre(params: Mesh) -> Vec:
     """Return the middle of the box around, about which the moment is reported."""
     corners = surface(params).reshape(-1, 3)
@@ -262,5 +267,6 @@ def clast_register(registry: Registry) -> None:
             slots=slots,
             centre=centre,
             mesh=mesh,
+            concerns=concerns,
         ),
     )

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.scenes import stl_text
 
 from clast.errors import ConfigError
 from clast.parts.generator import Site
 from clast.plugins.discovery import discover
 from clast.scene.packing_report import overlaps
 from clast.testing.kit import try_part
-from clast_plugins.generators.mesh_agglomerate import MeshAgglomerate, body, generate
+from clast_plugins.generators.mesh_agglomerate import MeshAgglomerate, body, generate, predict
 from clast_plugins.generators.packing.closed_surface import ClosedSurface, closed
 from clast_plugins.generators.packing.vessels import Box
 from clast_plugins.walls.block import Block, mesh
@@ -145,3 +146,16 @@ def test_what_is_no_body_is_refused(changes: dict[str, Any], told: str) -> None:
 def test_primaries_that_do_not_fit_are_refused() -> None:
     with pytest.raises(ConfigError, match=r"the largest primary, 7000 mm, does not fit into a body of .* mm x"):
         generate(grain(primary_diameter=7.0, primaries=1, porosity=None), HERE)
+
+
+def test_triangles_without_an_area_are_left_out_unless_the_surface_needs_them(tmp_path: Path) -> None:
+    a, b, c = BOX[0]
+    flat = [[a, b, a], [a, a, a]]
+    amid = np.mean([b, c], axis=0).tolist()
+    (tmp_path / "box.stl").write_text(stl_text([*BOX, *flat]))
+    params = grain(file=tmp_path / "box.stl")
+    assert predict(params, HERE, None).concerns == ("2 of 14 triangles of the file have no area and are left out",)
+    assert body(params).room.volume == pytest.approx(np.pi / 6.0 * 8.0**3)
+    (tmp_path / "seam.stl").write_text(stl_text([[a, b, amid], [a, amid, c], [b, c, amid], *BOX[1:]]))
+    with pytest.raises(ValueError, match=r"1 of 14 triangles of the file has no area and is left out; the surface is"):
+        grain(file=tmp_path / "seam.stl")

@@ -12,13 +12,14 @@ from hypothesis import strategies as st
 from clast.config.scene import load
 from clast.engine.wall_feet import Feet, feet
 from clast.errors import ConfigError, RunError
+from clast.forecast import forecast
 from clast.maths.vec3 import Vec
 from clast.plugins.discovery import discover
 from clast.results import checkpoint
 from clast.verification.bench import Bench
 from clast_plugins.walls.block import Block
 from clast_plugins.walls.mesh import Mesh
-from tests.scenes import CRUSH, write
+from tests.scenes import CRUSH, stl_text, write
 
 WALL = discover().get("wall", "mesh").part
 BLOCK = discover().get("wall", "block").part
@@ -77,22 +78,14 @@ def test_a_file_as_text_and_as_binary_is_the_same_surface(tmp_path: Path) -> Non
     rows = np.zeros(2, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]))
     rows["corners"] = triangles
     (tmp_path / "binary.stl").write_bytes(b" " * 80 + np.uint32(2).tobytes() + rows.tobytes())
-    (tmp_path / "text.stl").write_text(text_of(triangles.tolist()))
+    (tmp_path / "text.stl").write_text(stl_text(triangles.tolist()))
     found = [Mesh(file=tmp_path / name, unit="1 mm", origin=(0, 0, 1)) for name in ("binary.stl", "text.stl")]
     points, cells = WALL.mesh(found[0], 1.0)
     assert points[cells] == pytest.approx(1e-3 * triangles + [0, 0, 1])
     assert WALL.shape(found[0]).triangles.tolist() == WALL.shape(found[1]).triangles.tolist()
 
 
-def text_of(triangles: list[list[list[float]]]) -> str:
-    lines = ["solid made"]
-    for each in triangles:
-        corners = [f"vertex {x} {y} {z}" for x, y, z in each]
-        lines += ["facet normal 0 0 0", "outer loop", *corners, "endloop", "endfacet"]
-    return "\n".join([*lines, "endsolid made\n"])
-
-
-BARE = text_of([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 1, 1], [2, 2, 2]]])
+BARE = stl_text([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 1, 1], [2, 2, 2]]])
 
 
 @pytest.mark.parametrize(
@@ -104,7 +97,7 @@ BARE = text_of([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 1, 1], [2, 2,
         (BARE.replace("vertex 1 1 1", "vertex 1,0 1 1"), "wall.stl:12: 'vertex 1,0 1 1' is no corner"),
         (BARE[: BARE.index("vertex 2 2 2")], "wall.stl: tells of 2 triangles and holds 5 corners: cut off"),
         (BARE.replace("vertex 2 2 2", "vertex 2e39 2 2"), "triangle 1 has a corner that is no place"),
-        (BARE, "wall.stl: triangle 1, counted from 0, has no area; repair the surface"),
+        (stl_text([[[0, 0, 0], [1, 1, 1], [2, 2, 2]]] * 2), "wall.stl: holds no triangle that has an area; export"),
     ],
 )
 def test_a_file_that_is_no_surface_is_refused_where_the_scene_names_it(
@@ -117,6 +110,22 @@ def test_a_file_that_is_no_surface_is_refused_where_the_scene_names_it(
         load(crush, ["walls.lower={type: mesh, material: steel, file: wall.stl, unit: 1 mm}"])
     assert "walls.lower" in str(error.value)
     assert capfd.readouterr().err == ""
+
+
+def test_triangles_of_a_file_without_an_area_are_left_out_with_one_sentence(tmp_path: Path) -> None:
+    whole = [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0], [0, 1, 0]]]
+    point, line = [[5, 5, 5]] * 3, [[0, 0, 0], [1, 1, 1], [2, 2, 2]]
+    (tmp_path / "whole.stl").write_text(stl_text(whole))
+    (tmp_path / "wall.stl").write_text(stl_text([point, whole[0], line, whole[1]]))
+    made, same = (Mesh(file=tmp_path / name, unit="1 mm") for name in ("wall.stl", "whole.stl"))
+    assert all(np.array_equal(*each) for each in zip(WALL.shape(made), WALL.shape(same), strict=True))
+    assert WALL.concerns(same) == ()
+    wall = "walls.lower={type: mesh, material: steel, file: wall.stl, unit: 1 mm, origin: [0, 0, -5 mm]}"
+    scene = load(write(tmp_path, CRUSH), [wall])
+    told = "walls.lower: 2 of 4 triangles of the file have no area and are left out"
+    assert [each for each in forecast(scene).concerns if told in each] == [f"--set {wall}: {told}"]
+    with pytest.raises(ValueError, match=r"triangle 0, counted from 0, has no area; leave out what has none"):
+        Mesh(triangles=[line, *whole])
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,8 @@ def foresee(
     particles = sum(n * each.particles for n, each in zip(count, told.values(), strict=True))
     band = max(each.particles_band for each in told.values())
     filled = outline(room, base, height or _lowest(diameter, room))
-    return Prediction(particles, *smallest, _bonds(count, list(told.values())), band, filled)
+    concerns = tuple(f"fractions.{name}.template: {text}" for name, each in told.items() for text in each.concerns)
+    return Prediction(particles, *smallest, _bonds(count, list(told.values())), band, filled, concerns)
 
 
 def _template(name: str, fraction: Fraction, site: Site, gaps: Gaps | None) -> Prediction:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +32,24 @@ THIN = 1e-12
 """Area of a triangle, as a share of the square of its longest side, up to which it has none."""
 
 
-def triangles_of(path: Path) -> Triangles:
-    """Return the triangles of an STL file, (t, 3, 3), in its unit.
+class Content(NamedTuple):
+    """Triangles of a file that have an area, (t, 3, 3) in its unit, and how many it holds that have none."""
+
+    triangles: Triangles
+    bare: int
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """A sentence about those without an area; none where there are none."""
+        if self.bare == 0:
+            return ()
+        have, are = ("have", "are") if self.bare > 1 else ("has", "is")
+        count = len(self.triangles) + self.bare
+        return (f"{self.bare} of {count} triangles of the file {have} no area and {are} left out",)
+
+
+def content_of(path: Path) -> Content:
+    """Return what an STL file holds. Programs that make surfaces leave triangles without an area behind.
 
     Raises
     ------
@@ -58,7 +75,7 @@ def version(path: Path) -> tuple[int, int]:
 
 
 @lru_cache(maxsize=8)
-def _read(path: Path, version: tuple[int, int]) -> Triangles:
+def _read(path: Path, version: tuple[int, int]) -> Content:
     """Read a file; once for each version of it."""
     if version[1] > MOST_BYTES:
         raise ConfigError(f"{path}: has {version[1]:,} bytes, more than {MOST:,} triangles; make it coarser")
@@ -67,9 +84,15 @@ def _read(path: Path, version: tuple[int, int]) -> Triangles:
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror}; check the path") from None
     triangles = _of_text(path, content) if _is_text(content) else _of_binary(path, content)
-    refuse_bad(f"{path}: ", triangles)
-    triangles.setflags(write=False)
-    return triangles
+    where = f"{path}: "
+    refuse_nowhere(where, triangles)
+    bare = without_area(triangles)
+    if bare.all():
+        raise ConfigError(f"{where}holds no triangle that has an area; export it again")
+    kept = triangles[~bare]
+    refuse_far(where, kept)
+    kept.setflags(write=False)
+    return Content(kept, int(bare.sum()))
 
 
 def _is_text(content: bytes) -> bool:
@@ -108,8 +131,26 @@ def _of_binary(path: Path, content: bytes) -> Triangles:
     return np.frombuffer(content, TRIANGLE, offset=HEAD)["corners"].astype(float)
 
 
-def refuse_bad(where: str, triangles: Triangles) -> None:
-    """Refuse what is no surface: no or too many triangles, corners that are nowhere, triangles without an area.
+def refuse_bad(triangles: Triangles) -> None:
+    """Refuse triangles that are written out and no surface: as :func:`content_of`, and those without an area.
+
+    Raises
+    ------
+    ConfigError
+    """
+    refuse_nowhere("", triangles)
+    bare = without_area(triangles)
+    if bare.any():
+        count = int(bare.sum())
+        more = f", and {count - 1} others" if count > 1 else ""
+        raise ConfigError(
+            f"triangle {int(np.argmax(bare))}, counted from 0, has no area{more}; leave out what has none"
+        )
+    refuse_far("", triangles)
+
+
+def refuse_nowhere(where: str, triangles: Triangles) -> None:
+    """Refuse no or too many triangles, and corners that are nowhere.
 
     Raises
     ------
@@ -122,21 +163,33 @@ def refuse_bad(where: str, triangles: Triangles) -> None:
     lost = ~(np.abs(triangles) < NOWHERE).all(axis=(1, 2))
     if lost.any():
         raise ConfigError(f"{where}triangle {int(np.argmax(lost))} has a corner that is no place; export it again")
-    sides = np.roll(triangles, -1, axis=1) - triangles
-    longest2 = (sides**2).sum(axis=2).max(axis=1)
+
+
+def refuse_far(where: str, triangles: Triangles) -> None:
+    """Refuse triangles that have an area, so far from the origin that nothing is known of their shape.
+
+    Raises
+    ------
+    ConfigError
+    """
+    _, longest2 = _sides(triangles)
     far = np.abs(triangles).max(axis=(1, 2)) > FARTHEST * np.sqrt(longest2.min())
-    if far.any() and longest2.min() > 0.0:
+    if far.any():
         k = int(np.argmax(far))
         raise ConfigError(
             f"{where}triangle {k} has a corner {np.abs(triangles[k]).max():.3g} units from the origin, where numbers "
             "of this precision end; move the surface to the origin, or export it again"
         )
+
+
+def without_area(triangles: Triangles) -> NDArray[np.bool_]:
+    """Return which triangles, (t, 3, 3), have no area, (t,)."""
+    sides, longest2 = _sides(triangles)
     area = 0.5 * np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    bare = ~(area > THIN * longest2)
-    if bare.any():
-        k, count = int(np.argmax(bare)), int(bare.sum())
-        more = f", and {count - 1} others" if count > 1 else ""
-        raise ConfigError(
-            f"{where}triangle {k}, counted from 0, has no area{more}; repair the surface, where it was made or with a "
-            "program such as MeshLab"
-        )
+    return np.asarray(~(area > THIN * longest2))
+
+
+def _sides(triangles: Triangles) -> tuple[Triangles, NDArray[np.float64]]:
+    """Return the sides, (t, 3, 3), and the squares of the longest, (t,)."""
+    sides = np.roll(triangles, -1, axis=1) - triangles
+    return sides, (sides**2).sum(axis=2).max(axis=1)
