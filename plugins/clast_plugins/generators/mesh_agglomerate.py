@@ -40,8 +40,9 @@ class MeshAgglomerate(AgglomerateParams):
     Limits
     ------
     The middle of the volume comes to ``centre``. Edges and tips that a primary does not fit into stay empty, so what
-    lies beside them is denser; a neck that is too narrow parts the body. A surface that goes through itself is not
-    noticed. It does not turn: turn it where it is made.
+    lies beside them is denser; a neck that is too narrow parts the body. The surface is that of one body: separate
+    ones are refused; a closed surface inside it that turns the other way is a hollow. A surface that goes through
+    itself is not noticed. It does not turn: turn it where it is made.
 
     Source
     ------

@@ -159,3 +159,15 @@ def test_triangles_without_an_area_are_left_out_unless_the_surface_needs_them(tm
     (tmp_path / "seam.stl").write_text(stl_text([[a, b, amid], [a, amid, c], [b, c, amid], *BOX[1:]]))
     with pytest.raises(ValueError, match=r"1 of 14 triangles of the file has no area and is left out; the surface is"):
         grain(file=tmp_path / "seam.stl")
+
+
+def test_a_body_may_have_hollows_but_separate_bodies_are_refused() -> None:
+    outer, inner = box_of_triangles(3.0, 2.0, 1.0), box_of_triangles(0.5, 0.5, 0.5)
+    hollow = ClosedSurface(closed(np.concatenate([inner[:, ::-1], outer]), "it "))
+    assert hollow.volume == pytest.approx(48.0 - 1.0)
+    assert depths(hollow._surface, np.array([[0.0, 0.0, 0.0], [0.75, 0.0, 0.0]])) == pytest.approx([-0.5, 0.25])
+    away = np.array([9.0, 0.0, 0.0])
+    for pieces in ([outer, inner], [outer, inner + away], [outer, inner[:, ::-1] + away], [outer, outer + away]):
+        for turned in (1, -1):
+            with pytest.raises(ConfigError, match="it is that of 2 separate bodies, and a grain is one"):
+                closed(np.concatenate(pieces)[:, ::turned], "it ")

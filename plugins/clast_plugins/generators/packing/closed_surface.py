@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from clast.errors import ConfigError
 from clast_plugins.generators.packing.room import Floats, random_points, uniforms
-from clast_plugins.walls.surface.inside import Surface, all_moved_in, depths, surface_of
+from clast_plugins.walls.surface.inside import Surface, all_moved_in, depths, is_inside, surface_of
 from clast_plugins.walls.surface.tree import planted
 
 MERGED = 1e-6
@@ -99,11 +99,11 @@ def closed(triangles: Floats, where: str) -> Floats:
     Raises
     ------
     ConfigError
-        The surface is not closed, or its triangles do not all turn one way.
+        The surface is not closed, its triangles do not all turn one way, or it is that of several bodies.
     """
     corners = _numbered(triangles)
     edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
-    _, counts = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    _, edge, counts = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
     if (counts != 2).any():
         raise ConfigError(
             f"{where}is not closed: {int((counts != 2).sum())} of {len(counts)} edges do not belong to two triangles; "
@@ -115,7 +115,43 @@ def closed(triangles: Floats, where: str) -> Floats:
     if sixfold.sum() < 0.0:
         triangles, sixfold = triangles[:, ::-1], -sixfold
     middle = (sixfold[:, None] * triangles.sum(axis=1)).sum(axis=0) / (4.0 * sixfold.sum())
-    return np.asarray(triangles - middle)
+    about = np.asarray(triangles - middle)
+    _refuse_several(about, _pieces(edge.ravel(), len(about)), where)
+    return about
+
+
+def _pieces(edge: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """Return the piece of a closed surface that each triangle is of, (t,): those of one piece hang together by edges.
+
+    ``edge`` (3 t,) is the number of the first edge of all triangles, then of the second, then of the third.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    beside = (np.argsort(edge, kind="stable") % count).reshape(-1, 2)
+    links = coo_array((np.ones(len(beside), np.int8), (beside[:, 0], beside[:, 1])), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1], np.int64)
+
+
+def _refuse_several(triangles: Floats, piece: NDArray[np.int64], where: str) -> None:
+    """Refuse a surface of several pieces, but for a body with hollows: pieces inside it that turn the other way.
+
+    Raises
+    ------
+    ConfigError
+    """
+    if piece.max() == 0:
+        return
+    volumes = np.bincount(piece, weights=_sixfold(triangles))
+    body = triangles[piece == np.argmax(volumes)]
+    around = surface_of(body, planted(body))
+    first = triangles[np.unique(piece, return_index=True)[1], 0].tolist()
+    hollow = [v < 0.0 and is_inside(around, (x, y, z)) for v, (x, y, z) in zip(volumes, first, strict=True)]
+    if hollow.count(False) > 1:
+        raise ConfigError(
+            f"{where}is that of {hollow.count(False)} separate bodies, and a grain is one: give each a generator of "
+            "its own with a surface of its own, or turn what shall be a hollow in another body inside out"
+        )
 
 
 def _numbered(triangles: Floats) -> NDArray[np.int64]:
