@@ -15,6 +15,7 @@ from clast.engine.kernels.layout import X
 from clast.errors import ConfigError, RunError
 from clast.results import checkpoint
 from clast.scene.build import build_scene
+from clast.scene.compression import Gauge
 from clast.scene.start import check_start
 from clast.simulation import Simulation
 
@@ -281,3 +282,19 @@ def test_a_lattice_that_does_not_fit_its_periodic_box_is_told_the_right_size():
     text = refusal(scene(lattice))
     assert "particles.box.0" in text
     assert "make domain and box 0.0099 m long" in text
+
+
+def test_a_stretched_box_ends_at_the_strain_of_the_side_that_is_strained_most():
+    def last_step(strain: float, **changes: Any) -> int:
+        time = {"step": "5 us", "end": {"strain": strain}}
+        return Gauge(scene(PAIR, time=time, boundaries={"domain": PRESSED["domain"] | changes})).last_step(5e-6)
+
+    assert last_step(0.12) == 12_000
+    assert last_step(0.12, strain_measure="engineering") == 12_000
+    assert last_step(1.5) == 150_000
+    with pytest.raises(ConfigError, match=r"time.end.strain: a side that is pressed to the engineering strain 1.5 has"):
+        last_step(1.5, strain_measure="engineering")
+    with pytest.raises(ConfigError, match=r"time.end.strain: the box is not stretched, as all of boundaries.domain.s"):
+        last_step(0.12, strain_rate=[0, 0, 0])
+    with pytest.raises(ConfigError, match=r"a strain needs the section 'compression', .* or a periodic box that 'bou"):
+        last_step(0.12, strain_rate=None)

@@ -23,6 +23,7 @@ def check_references(data: Mapping[str, Any]) -> list[Problem]:
     return [
         *_materials(data),
         *_compression(data),
+        *_strain_at_the_end(data),
         *_pair_names(data),
         *_pairs_needed(data),
     ]
@@ -89,11 +90,16 @@ def _compression(data: Mapping[str, Any]) -> Iterator[Problem]:
     twice = [name for k, name in enumerate(sides) if name is not None and name in sides[:k]]
     if twice:
         yield Problem(("compression", "side"), f"{twice[0]!r} is named twice; name every wall around once")
-    end = _section(_section(data, "time"), "end")
-    if "strain" in end and not compression and not _unreadable(data, "compression"):
+
+
+def _strain_at_the_end(data: Mapping[str, Any]) -> Iterator[Problem]:
+    end, domain = _section(_section(data, "time"), "end"), _section(_section(data, "boundaries"), "domain")
+    measured = _section(data, "compression") or domain.get("strain_rate") is not None
+    if end.get("strain") is not None and not measured and not _unreadable(data, "compression"):
         yield Problem(
             ("time", "end", "strain"),
-            "a strain needs the section 'compression', which says how it is measured",
+            "a strain needs the section 'compression', which says how it is measured, or a periodic box that "
+            "'boundaries.domain.strain_rate' stretches; give one of them, or another end",
         )
 
 

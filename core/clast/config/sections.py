@@ -172,7 +172,12 @@ class StepRule(Params):
 class End(Params):
     """When a run ends: at a strain, a time or a number of steps."""
 
-    strain: Annotated[Annotated[Number, Field(gt=0)] | None, Field(description="Compression to reach")] = None
+    strain: Annotated[
+        Annotated[Number, Field(gt=0)] | None,
+        Field(
+            description="Strain to reach: of the compression, or of the side of a stretched box that is strained most"
+        ),
+    ] = None
     time: Annotated[Annotated[Time, Field(gt=0)] | None, Field(description="Simulated time to reach")] = None
     steps: Annotated[Annotated[int, Field(gt=0)] | None, Field(description="Steps to take")] = None
 

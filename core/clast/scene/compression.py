@@ -13,6 +13,7 @@ from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.state import Walls
 from clast.scene.approach import time_of
+from clast.scene.scene import is_logarithmic, strain_rates
 from clast.scene.side_walls import SideWalls, side_walls
 
 Floats = NDArray[np.float64]
@@ -160,8 +161,8 @@ class Gauge:
         Raises
         ------
         ConfigError
-            If the plates never reach the strain, or only after more steps than can be counted; if a wall does not know
-            how to move so long.
+            If plates or box never reach the strain, or only after more steps than can be counted; if a wall does not
+            know how to move so long.
         """
         end = self.config.time.end
         steps = float(end.steps) if end.steps is not None else step + (self._end_time() - time) / dt
@@ -187,7 +188,24 @@ class Gauge:
         end = self.config.time.end
         if end.time is not None:
             return end.time
-        return self._time_of_strain
+        return self._time_of_strain if self.axis is not None else self._time_of_box_strain()
+
+    def _time_of_box_strain(self) -> float:
+        """Return when the side of a stretched box that is strained fastest has the strain at the end, in s."""
+        rates, strain = strain_rates(self.config), self.config.time.end.strain
+        assert strain is not None
+        if not rates.any():
+            raise self.config.problem(
+                ("time", "end", "strain"),
+                "the box is not stretched, as all of boundaries.domain.strain_rate are 0; give one that is not",
+            )
+        time = strain / float(np.abs(rates).max())
+        if not is_logarithmic(self.config) and -time * float(rates.min()) >= 1.0:
+            raise self.config.problem(
+                ("time", "end", "strain"),
+                f"a side that is pressed to the engineering strain {strain:g} has no length left; end below 1",
+            )
+        return time
 
     @cached_property
     def _time_of_strain(self) -> float:
