@@ -9,6 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from clast.about import VERSION
+
 if TYPE_CHECKING:
     from clast.config.scene import load
     from clast.exporting import export_run
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Simulation", "__version__", "export_run", "hookimpl", "load", "open_run", "run_scene"]
 
-__version__ = "0.1.0"
+__version__ = VERSION
 
 _HOMES = {
     "Simulation": "clast.simulation",

@@ -12,8 +12,8 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
+from clast.ended import Ended
 from clast.errors import RefusedError, RunError
-from clast.observer import Ended
 from clast.parts.writer import Written
 from clast.results import checkpoint, curves, store, summary
 from clast.results.frames import Frames

@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Protocol
 
 import numpy as np
 
 from clast.config.scene import SceneConfig
+from clast.ended import Ended
 from clast.engine.assemble import Kernel, assemble
 from clast.engine.crew import Crew
-from clast.engine.kernels.layout import (
-    FIRST,
-    INTACT,
-    LEFT,
-    STALE,
-    START,
-    STEP,
-    X,
-)
+from clast.engine.kernels.layout import FIRST, INTACT, LEFT, STALE, START, STEP, X
 from clast.engine.ledger import Ledger, read_ledger
 from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.parts_used import parts_of
@@ -29,7 +23,6 @@ from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
 from clast.maths.box import Box
-from clast.observer import Ended, Observer
 from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, largest_reach
@@ -41,6 +34,16 @@ from clast.soundness.suspects import foreign_laws
 from clast.soundness.watch import Soundness
 
 BOND_COLUMNS = 8
+
+
+class Observer(Protocol):
+    """Looks at a simulation now and then, and changes nothing."""
+
+    def next_step(self, step: int) -> int | None:
+        """Return the next step after ``step`` to look at, None for never again."""
+
+    def observe(self, simulation: Simulation) -> None:
+        """Look at the simulation, at the end of a step that was asked for."""
 
 
 class Simulation:
@@ -186,7 +189,7 @@ class Simulation:
 
     def _advance_to(self, step: int) -> None:
         """Advance to a step, making neighbour lists anew whenever they go stale."""
-        while self._advance(step) == STALE:
+        while self.crew.advance(self.kernel.advance, self.world, step, self.step) == STALE:
             self._stop_for(self.soundness.motion_complaint(self.world, self.dt))
             self._remove_leavers()
             self.renew_lists()
@@ -217,9 +220,6 @@ class Simulation:
     def stable_step(self) -> float:
         """Return the largest stable step of the scene as it stands, in s; infinite where nothing holds or touches."""
         return self.keeper.limit(self.keeper.present(self.world))
-
-    def _advance(self, step: int) -> int:
-        return self.crew.advance(self.kernel.advance, self.world, step, self.step)
 
     def renew_lists(self) -> None:
         """Search for neighbours at the present positions."""

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from clast.config.describe import parameters
 from clast.engine.records import fields
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 from sitebuild import ROOT
 from sitebuild.docstring import markdown, plain, sections
 from sitebuild.scenes import scenes_with

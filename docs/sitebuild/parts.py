@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clast.plugins.registry import Registered, Registry
+from clast.plugins.registered import Registered
+from clast.plugins.registry import Registry
 from sitebuild.curves import drawing
 from sitebuild.docstring import plain
 from sitebuild.part_page import Picture, part_page, table

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from clast import load
 from clast.config.yaml_loader import read_document
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 from sitebuild import ROOT
 
 CONFIGS = ROOT / "configs"

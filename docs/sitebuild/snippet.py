@@ -9,7 +9,7 @@ import yaml
 
 from clast.errors import PluginError
 from clast.parts.examples import example, stated
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 
 _PLACES: dict[str, Callable[[Any], Any]] = {
     "generator": lambda part: {"particles": part},

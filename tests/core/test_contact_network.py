@@ -10,7 +10,8 @@ import pytest
 
 from clast.config.scene import load
 from clast.engine.kernels.layout import F
-from clast.results.contacts import Contacts, find_contacts
+from clast.results.contacts import Contacts
+from clast.results.found_contacts import find_contacts
 from clast.results.run import open_run
 from clast.session import run_scene
 from clast.simulation import Simulation

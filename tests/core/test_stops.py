@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from clast import Simulation, load, open_run, run_scene
+from clast.ended import Ended
 from clast.errors import ConfigError
-from clast.observer import Ended
 from clast.results import checkpoint
 from clast.results.in_words import summary_rows
 from clast.results.stops import Stops

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from clast.results.contacts import Contacts
 from clast.results.fragments import fragments
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 
 Floats32 = NDArray[np.float32]
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from clast.parts.params import Params
 from clast.parts.writer import Written
 from clast.results import curves
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 from clast_viz.chains import pieces
 
 FILE = "csv"

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.results.contacts import grain_count
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 
 
 def shows_damage(run: Run) -> bool:

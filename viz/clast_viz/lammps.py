@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from clast.errors import RunError
 from clast.parts.params import Params
 from clast.parts.writer import Written
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 
 FILE = "lammps"
 DUMP, DATA = "particles.dump", "bonds.data"

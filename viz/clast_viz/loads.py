@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Frame
+from clast.results.frame import Frame
 from clast_viz.colours import looked_up, table
 
 # Brewer's diverging blue to red (colorbrewer2.org, RdBu) with a grey middle that is seen on white.

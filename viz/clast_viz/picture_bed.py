@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 from clast_viz.colours import DAMAGE, colour_map
 from clast_viz.damage import GrainDamage
 from clast_viz.picture_parts import add_balls, add_scale, add_text, add_wall

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 from clast_viz.colours import colour_map
 from clast_viz.loads import LOAD, drawn_bonds, signed_load
 from clast_viz.picture_parts import BALL_COLOUR, add_balls, add_box, add_scale, add_text, add_wall

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 from clast_viz.budget import most
 from clast_viz.chains import force_chains, pieces, reference_force
 from clast_viz.colours import DAMAGE, FORCE, looked_up, table

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 from clast_viz.curves import has_compression, peak
 from clast_viz.energy import BANDS
 from clast_viz.recording_time import Timelines

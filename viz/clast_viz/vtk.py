@@ -12,8 +12,9 @@ from pydantic import Field
 from clast.parts.params import Params
 from clast.parts.writer import Written
 from clast.results.contacts import Contacts
+from clast.results.frame import Frame
 from clast.results.room import in_memory
-from clast.results.run import Frame, Run
+from clast.results.run import Run
 from clast_viz.budget import Budget, FrameBudget, chosen_frames, most, within
 from clast_viz.chains import pieces
 from clast_viz.damage import GrainDamage

@@ -17,7 +17,7 @@ from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.plugins.discovery import discover, parts_of
 from clast.plugins.nearest import suggestion
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 from clast.testing.claim import Outcome, try_claims
 from clast.testing.kit import claims_of, remarks_on
 from clast.testing.speed import BESIDE, Cost, cost

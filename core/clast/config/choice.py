@@ -12,7 +12,8 @@ from pydantic_core import CoreSchema, core_schema
 from clast.config.problems import MISSING, UNKNOWN_PART, explain, problem, refuse, short
 from clast.errors import PluginError
 from clast.parts.params import Params
-from clast.plugins.registry import Registry, Source
+from clast.plugins.registered import Source
+from clast.plugins.registry import Registry
 
 KIND_KEY = "x-clast-kind"
 

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
 
 from clast.config.beside import WallChoice
-
-if TYPE_CHECKING:
-    from clast.config.scene import SceneConfig
 
 OF_COMPRESSION = ("displacement_m", "strain", "stress_Pa", "force_upper_N", "force_lower_N")
 
@@ -28,8 +24,7 @@ def stage_columns(walls: Mapping[str, WallChoice]) -> dict[str, int]:
     return {f"stage_{name}": k for k, (name, wall) in enumerate(walls.items()) if wall.staged}
 
 
-def known_columns(scene: SceneConfig) -> set[str]:
+def known_columns(walls: Mapping[str, WallChoice], compressed: bool) -> set[str]:
     """Return the columns that conditions may read: time, plates, forces and stages of walls, bonds."""
-    plates = OF_COMPRESSION if scene.compression is not None else ()
-    stages = stage_columns(scene.walls)
-    return {"time_s", *plates, *wall_columns(scene.walls), *stages, "bonds_intact", "bonds_broken"}
+    plates = OF_COMPRESSION if compressed else ()
+    return {"time_s", *plates, *wall_columns(walls), *stage_columns(walls), "bonds_intact", "bonds_broken"}

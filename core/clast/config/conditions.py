@@ -2,34 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
 
+from clast.config.beside import WallChoice
+from clast.config.choice import Chosen
 from clast.config.columns import known_columns
 from clast.config.document import Problem
 from clast.errors import KeyPath
 from clast.plugins.nearest import suggestion
 
-if TYPE_CHECKING:
-    from clast.config.choice import Chosen
-    from clast.config.scene import SceneConfig
+Walls = Mapping[str, WallChoice]
 
 
-def blind_conditions(scene: SceneConfig) -> Iterator[Problem]:
-    """Yield a problem for each condition that looks at a compression, or at columns, where there are none."""
-    known = known_columns(scene)
-    for path, each in scene.conditions:
-        if each.part.of_compression and scene.compression is None:
+def blind_conditions(conditions: Iterable[tuple[KeyPath, Chosen]], walls: Walls, compressed: bool) -> Iterator[Problem]:
+    """Yield a problem for each condition that looks at what a scene has not, or waits for what cannot come.
+
+    Parameters
+    ----------
+    conditions : iterable of key path and Chosen
+        The conditions of a scene, and where they stand.
+    walls : mapping of str to WallChoice
+    compressed : bool
+        Whether the scene has a compression.
+    """
+    known = known_columns(walls, compressed)
+    for path, each in conditions:
+        if each.part.of_compression and not compressed:
             yield Problem(
                 path,
                 f"{each.name} looks at strain or stress, and the scene has no compression; add one with its two "
                 "plates, or take another condition",
             )
-        yield from _blind(scene, path, each, known)
-        yield from _in_vain(scene, path, each)
+        yield from _blind(walls, path, each, known)
+        yield from _in_vain(walls, path, each)
 
 
-def _blind(scene: SceneConfig, path: KeyPath, condition: Chosen, known: set[str]) -> Iterator[Problem]:
+def _blind(walls: Walls, path: KeyPath, condition: Chosen, known: set[str]) -> Iterator[Problem]:
     """Yield the first column that a condition looks at and the curves lack; where it names a wall, by its name."""
     own = f"stage_{path[1]}" if path[0] == "walls" else ""
     if own in condition.part.reads(condition.params):
@@ -41,8 +49,8 @@ def _blind(scene: SceneConfig, path: KeyPath, condition: Chosen, known: set[str]
     if not lacking:
         return
     wall = getattr(condition.params, "wall", None)
-    if isinstance(wall, str) and wall not in scene.walls:
-        yield Problem((*path, "wall"), f"there is no wall {wall!r}; {suggestion(wall, scene.walls)}")
+    if isinstance(wall, str) and wall not in walls:
+        yield Problem((*path, "wall"), f"there is no wall {wall!r}; {suggestion(wall, walls)}")
     elif isinstance(wall, str) and lacking[0].startswith("stage_"):
         text = f"the motion of walls.{wall} has no stage that ends; give its stages, each with 'until'"
         yield Problem((*path, "wall"), text)
@@ -51,10 +59,10 @@ def _blind(scene: SceneConfig, path: KeyPath, condition: Chosen, known: set[str]
         yield Problem(path, f"{text}; {suggestion(lacking[0], known)}")
 
 
-def _in_vain(scene: SceneConfig, path: KeyPath, condition: Chosen) -> Iterator[Problem]:
+def _in_vain(walls: Walls, path: KeyPath, condition: Chosen) -> Iterator[Problem]:
     """Yield a problem for each wall that a condition waits for and whose last stage is never over."""
     for name in condition.part.waits_for(condition.params):
-        wall = scene.walls.get(name)
+        wall = walls.get(name)
         if wall is None or not wall.staged or wall.stages[-1].until is not None or path[:2] == ("walls", name):
             continue
         last = len(wall.stages) - 1

@@ -12,7 +12,8 @@ from clast.config.json_schema import model_schema
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.plugins.nearest import suggestion
-from clast.plugins.registry import Registered, Registry, Source
+from clast.plugins.registered import Registered, Source
+from clast.plugins.registry import Registry
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ from pydantic import BaseModel
 from clast.config.beside import BESIDE
 from clast.config.choice import KIND_KEY
 from clast.config.scene import SceneConfig
-from clast.plugins.registry import KINDS, Registered, Registry
+from clast.plugins.registered import Registered
+from clast.plugins.registry import KINDS, Registry
 
 Schema = dict[str, Any]
 

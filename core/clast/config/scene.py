@@ -252,7 +252,8 @@ def build(document: Document) -> SceneConfig:
         found = located(error, SceneConfig, document)
         # what a file that was not loaded would have brought cannot be missed
         problems += [each for each in found if not (not_loaded and each.kind == UNKNOWN_PART)]
-    problems += blind_conditions(scene) if scene is not None else ()
+    if scene is not None:
+        problems += blind_conditions(scene.conditions, scene.walls, scene.compression is not None)
     if problems or scene is None:
         raise ConfigError(document.report(problems))
     scene._document, scene._registry = document, registry

@@ -59,10 +59,11 @@ def _turn_about_one_point(stages: tuple[Stage, ...]) -> tuple[Stage, ...]:
     for k, stage in enumerate(stages):
         turned = pivot((stage,))
         if turned is not None and turned != first:
-            raise ValueError(
+            text = (
                 f"motion {k} ({stage.motion.name}) turns about {list(turned)} m, and one before it about "
                 f"{list(first or ())} m; give all the same point: a wall turns about one"
             )
+            raise refuse([problem((k,), text)])
     return stages
 
 

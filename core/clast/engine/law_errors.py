@@ -9,11 +9,10 @@ from pathlib import Path
 from traceback import walk_tb
 from typing import Any, NamedTuple
 
-import clast
+from clast.about import HOME
 from clast.engine.sources import source_files
 from clast.errors import PluginError, one_line
 
-OWN = Path(clast.__file__).resolve().parent
 STAGE = "Failed in nopython mode pipeline"
 """What numba puts above a reason."""
 ADVICE = (
@@ -42,7 +41,7 @@ def law_files(
 ) -> dict[str, list[Heard]]:
     """Return the files of laws and of what they call, without those of Clast's own helpers, with what was heard."""
     files = {file.resolve() for file in source_files(functions)}
-    found: dict[str, list[Heard]] = {str(file): [] for file in files if not file.is_relative_to(OWN)}
+    found: dict[str, list[Heard]] = {str(file): [] for file in files if not file.is_relative_to(HOME)}
     for function, value in (heard or {}).items():
         code = function.__code__
         last = max(line for _, _, line in code.co_lines() if line is not None)

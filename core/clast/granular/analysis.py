@@ -18,7 +18,8 @@ from clast.granular.grading import Grading, grading
 from clast.granular.grains import Grains, grains_of, sums
 from clast.granular.pieces import Pieces, pieces_in
 from clast.granular.profiles import Profile, over_height, over_radius, packed
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 from clast.results.wall_mesh import WallMesh
 
 Floats = NDArray[np.float64]

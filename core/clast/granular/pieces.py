@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from clast.granular.grains import Grains, sums
 from clast.results.fragments import fragments
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from clast.plugins.registry import Registered, Source
+from clast.plugins.registered import Registered, Source
 
 
 def conflict(taken: Registered, second: Source) -> str:

@@ -24,7 +24,8 @@ from clast.errors import PluginError, one_line
 from clast.plugins import hookspec
 from clast.plugins.blame import FILE_MODULE, GROUP, OWN_DISTRIBUTION, line_in
 from clast.plugins.nearest import nearest_name, suggestion
-from clast.plugins.registry import Failure, NameTakenError, Registered, Registry, Source
+from clast.plugins.registered import Failure, Registered, Source
+from clast.plugins.registry import NameTakenError, Registry
 
 CHOICE = "CLAST_PLUGINS"
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.kernels.layout import WALL_Q, Q, V, X
-from clast.results.contacts import ENDS, GROUP, find_contacts, keeps_contacts
+from clast.results.contacts import ENDS, GROUP
+from clast.results.found_contacts import find_contacts, keeps_contacts
 from clast.results.store import Store
 from clast.simulation import Simulation
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
-from clast.observer import Ended
+from clast.ended import Ended
 from clast.parts.stop import UNBALANCE
 from clast.results.stages import Stages
 from clast.results.unbalance import unbalanced_force_ratio

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.about import VERSION
 from clast.engine.tables import crack_rows
 from clast.errors import DamagedError, RefusedError, RunError, one_line
 from clast.results.checkpoint import how_to_go_on
@@ -48,10 +49,9 @@ def begin(folder: Path, simulation: Simulation) -> None:
 
 
 def _describe(file: Any, simulation: Simulation) -> None:
-    from clast import __version__
 
     scene = simulation.scene
-    file.attrs.update({"schema": 1, "name": scene.config.name, "clast_version": __version__, "complete": False})
+    file.attrs.update({"schema": 1, "name": scene.config.name, "clast_version": VERSION, "complete": False})
     file.attrs["periodic"] = scene.box.periodic
     particles = file.create_group("particles")
     particles["radius"], particles["grain"] = scene.radius, scene.grain

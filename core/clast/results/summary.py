@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.about import VERSION
 from clast.engine.mass_scaling import added_mass
 from clast.engine.tables import crack_rows
 from clast.engine.time_step import ruling
@@ -114,9 +115,7 @@ def mass_scaling_results(simulation: Simulation, run: Run) -> dict[str, Any]:
 
 def versions() -> dict[str, str]:
     """Return the versions of Clast, Python and the libraries that compute."""
-    from clast import __version__
-
-    return {"clast": __version__, "python": platform.python_version()} | {name: version(name) for name in LIBRARIES}
+    return {"clast": VERSION, "python": platform.python_version()} | {name: version(name) for name in LIBRARIES}
 
 
 def limits_table(simulation: Simulation) -> dict[str, float | None]:

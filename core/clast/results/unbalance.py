@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from clast.engine.kernels.layout import INVERSE_MASS, F
-from clast.results.contacts import find_contacts
+from clast.results.found_contacts import find_contacts
 from clast.simulation import Simulation
 
 NORMAL, SHEAR = 2, 3

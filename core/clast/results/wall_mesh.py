@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from clast.maths.rotation import Quat, matrix
-
-if TYPE_CHECKING:
-    from clast.results.run import Frame
+from clast.results.frame import Frame
 
 UNTURNED: Quat = (1.0, 0.0, 0.0, 0.0)
 

@@ -11,10 +11,9 @@ from typing import Any
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-import clast
+from clast.about import HOME
 from clast.errors import PluginError, one_line
 
-OWN = Path(clast.__file__).resolve().parent
 EXAMPLES = 60
 TRIED = settings(
     max_examples=EXAMPLES,
@@ -97,7 +96,7 @@ def place(error: BaseException) -> str:
 
 
 def _foreign(file: Path) -> bool:
-    return file.is_file() and not file.resolve().is_relative_to(OWN) and "hypothesis" not in file.parts
+    return file.is_file() and not file.resolve().is_relative_to(HOME) and "hypothesis" not in file.parts
 
 
 def must(holds: bool, problem: Callable[[], str] | str) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from clast.config.describe import parameters
 from clast.parts.examples import example
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 from clast.testing.claim import Claim, Outcome, try_claims
 
 

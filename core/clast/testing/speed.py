@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from clast.parts.params import Params
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 
 SIZE, PRIMARY = 1.4e-3, 0.25e-3
 STEPS, REPEATS = 200, 300

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from clast.errors import PluginError
 from clast.parts.examples import example
 from clast.parts.params import Params
-from clast.plugins.registry import Registered
+from clast.plugins.registered import Registered
 from sitebuild.curves import bond_model, contact_law, damping, generator, integrator, motion, rolling_resistance, wall
 
 

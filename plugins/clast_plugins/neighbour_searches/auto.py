@@ -12,6 +12,7 @@ from clast.parts.neighbour_search import NeighbourSearch
 from clast.parts.params import Params
 from clast.plugins.registry import Registry
 from clast_plugins.neighbour_searches import hierarchical_grid, linked_cells
+from clast_plugins.neighbour_searches.hierarchical_grid_cells import levels
 
 Floats = NDArray[np.float64]
 
@@ -56,7 +57,7 @@ def tests(reach: Floats) -> Tests:
     True
     """
     volume = 4.0 / 3.0 * np.pi * float(np.sum(reach**3)) / FILLED
-    level = hierarchical_grid.levels(reach)
+    level = levels(reach)
     several = 0.0
     for k in np.unique(level):
         mine = level == k

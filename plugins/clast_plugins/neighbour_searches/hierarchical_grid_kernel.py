@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.compiler import compiled
-from clast_plugins.neighbour_searches.hierarchical_grid import Grid
+from clast_plugins.neighbour_searches.hierarchical_grid_cells import Grid
 
 
 @compiled

@@ -7,7 +7,8 @@ from fake_parts import SCENE, Ball, Elastic, Explicit, FakePart, Moving, Nothing
 
 from clast.config import scene as scene_module
 from clast.parts.generator import Generator
-from clast.plugins.registry import Registry, Source
+from clast.plugins.registered import Source
+from clast.plugins.registry import Registry
 
 
 @pytest.fixture

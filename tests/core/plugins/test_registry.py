@@ -7,7 +7,8 @@ import pytest
 from clast.errors import PluginError
 from clast.parts.params import Params
 from clast.parts.wall import BodyForce
-from clast.plugins.registry import KINDS, Registry, Source
+from clast.plugins.registered import Source
+from clast.plugins.registry import KINDS, Registry
 
 
 def part(summary="A part."):

@@ -8,7 +8,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from clast import __version__
+from clast.about import VERSION
 from clast.results.whole_file import whole_file
 from clast_viz.report.printable import printable
 
@@ -23,7 +23,7 @@ def write_page(page: Path, template: str, values: dict[str, Any]) -> None:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    text = environment.get_template(template).render(version=__version__, **values)
+    text = environment.get_template(template).render(version=VERSION, **values)
     page.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(page) as draft:
         draft.write_text(text, encoding="utf-8")

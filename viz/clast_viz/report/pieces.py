@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.results.fragments import fragments
-from clast.results.run import Frame, Run
+from clast.results.frame import Frame
+from clast.results.run import Run
 
 MOST_FRAMES = 60
 """That are looked at; each is read whole."""
