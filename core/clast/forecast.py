@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from clast.building import generated, join
 from clast.config.scene import SceneConfig
 from clast.forecast_memory import COMPILER_BYTES, memory_concerns, run_memory, wall_memory
 from clast.forecast_results import results_text, size_concerns
 from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
-from clast.scene.build import generated, join
 from clast.scene.compression import Gauge
 from clast.scene.concerns import concerns_of_parts, rooms_left_open
 from clast.scene.foretold import bonded_gaps, foretold

@@ -9,8 +9,12 @@ import numpy as np
 
 from clast.config.scene import SceneConfig
 from clast.config.sections import StepRule
-from clast.engine.damped_step import stable_step
-from clast.engine.time_step import (
+from clast.parts.generator import Estimate
+from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients
+from clast.scene.scatter import Factors, draw_factors, scatter_entries
+from clast.scene.scene import Scene
+from clast.stability.damped_step import stable_step
+from clast.stability.time_step import (
     asked_step,
     bond_limit,
     contact_limit,
@@ -19,10 +23,6 @@ from clast.engine.time_step import (
     pair_limit,
     rayleigh_limit,
 )
-from clast.parts.generator import Estimate
-from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients
-from clast.scene.scatter import Factors, draw_factors, scatter_entries
-from clast.scene.scene import Scene
 
 MOST_DRAWN = 100_000
 """Bonds among which the stiffest is looked for."""
@@ -81,7 +81,7 @@ def packed_limit(sample: Scene, coordination: float) -> float:
     Bonds in all directions hold a primary against moving with Z/3 (k_n + 2 k_t)/m, against turning with
     Z (2/3 k_t L²/4 + (k_tor + 2 k_b)/3)/I; in the fastest mode its neighbours do the opposite, which doubles it. Of 14
     packings (porosity 0.45 to 0.75, 4 to 30 bonds a primary) 13 gave 0.93 to 1.12 of the exact limit of their bonds,
-    one in which only gaps were bonded 1.31. Dashpots hold as springs do: see :mod:`clast.engine.damped_step`.
+    one in which only gaps were bonded 1.31. Dashpots hold as springs do: see :mod:`clast.stability.damped_step`.
     """
     if len(sample.ends) == 0:
         return math.inf

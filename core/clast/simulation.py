@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
+from clast.building import build_scene
 from clast.config.scene import SceneConfig
 from clast.ended import Ended
 from clast.engine.assemble import Kernel, assemble
@@ -15,23 +16,22 @@ from clast.engine.kernels.layout import FIRST, INTACT, LEFT, STALE, START, STEP,
 from clast.engine.ledger import Ledger, read_ledger
 from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.parts_used import parts_of
-from clast.engine.rehearsal import try_laws
 from clast.engine.state import Floats, World
-from clast.engine.step_keeper import StepKeeper
 from clast.engine.tables import box_now, slot_view, take_out
-from clast.engine.time_step import Limits, choose_step, limits
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
 from clast.maths.box import Box
-from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.plan import blueprint, largest_reach
+from clast.scene.rehearsal import try_laws
 from clast.scene.repeats import most_skin, search_slack
 from clast.scene.scene import Scene
 from clast.scene.start import check_start, outside_of
 from clast.scene.world import build_world, relieve
 from clast.soundness.suspects import foreign_laws
 from clast.soundness.watch import Soundness
+from clast.stability.step_keeper import StepKeeper
+from clast.stability.time_step import Limits, choose_step, limits
 
 BOND_COLUMNS = 8
 
@@ -100,7 +100,7 @@ class Simulation:
         self.timeline = Timeline([Span(0, 0.0, choose_step(self.scene, self.limits))])
         self.keeper = StepKeeper(self.scene, self.plan)
         self.keeper.above = self.dt / self.limits.stable
-        self.skin = choose_skin(self.scene)
+        self.skin = choose_skin(config.neighbours.skin, float(self.scene.radius.min()))
         self.reach = largest_reach(self.scene)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         self.kernel: Kernel = assemble(self.plan, try_laws(self.scene, self.plan))

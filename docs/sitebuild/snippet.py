@@ -7,8 +7,8 @@ from typing import Any
 
 import yaml
 
+from clast.config.examples import example, stated
 from clast.errors import PluginError
-from clast.parts.examples import example, stated
 from clast.plugins.registered import Registered
 
 _PLACES: dict[str, Callable[[Any], Any]] = {

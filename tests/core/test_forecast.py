@@ -13,17 +13,17 @@ from typing import Any
 import pytest
 
 from clast import load
+from clast.building import build_scene
 from clast.config.scene import SceneConfig
-from clast.engine.time_step import choose_step, limits, pair_limit
 from clast.errors import ConfigError
 from clast.forecast import forecast, time_concerns
 from clast.forecast_memory import COMPILER_BYTES
 from clast.forecast_results import frame_bytes, frame_count, size_concerns
 from clast.results.run import open_run
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
 from clast.scene.wall_rows import wall_rows
 from clast.session import run_scene
+from clast.stability.time_step import choose_step, limits, pair_limit
 from tests.scenes import COLLISION, CRUSH, write
 
 CONFIGS = Path(__file__).parents[2] / "configs"

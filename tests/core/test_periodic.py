@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from clast import export_run, load, open_run, run_scene
+from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping
 from clast.engine.kernels.layout import X
 from clast.errors import ConfigError, RunError
 from clast.results import checkpoint
-from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.start import check_start
 from clast.simulation import Simulation

@@ -240,8 +240,8 @@ def test_heavier_particles_keep_their_weight_and_fall_as_one_with_the_rest(tmp_p
 
 
 def test_check_build_tells_what_is_made_heavier() -> None:
+    from clast.building import build_scene
     from clast.commands.build_report import mass_text
-    from clast.scene.build import build_scene
 
     target = 1.5 * Simulation(uneven()).limits.spectral
     assert "particles made heavier, by" in mass_text(build_scene(uneven(selective_mass_scaling=target)))

@@ -11,8 +11,8 @@ import yaml
 
 from clast import load
 from clast.config.describe import parameters
+from clast.config.examples import example
 from clast.engine.records import fields
-from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.plugins.discovery import discover
 from clast.testing.bonds import bond, stretched

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from clast import load
+from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping
-from clast.engine.damped_step import stable_step
-from clast.engine.springs import bodies_at_start, springs_at_start
-from clast.engine.time_step import limits
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from clast.stability.damped_step import stable_step
+from clast.stability.springs import bodies_at_start, springs_at_start
+from clast.stability.time_step import limits
 from clast.verification.dense_springs import largest
 
 PAGE = Path("docs/time-step.md")

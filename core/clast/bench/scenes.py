@@ -13,8 +13,8 @@ import yaml
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from clast.building import build_scene
 from clast.config.scene import from_mapping
-from clast.scene.build import build_scene
 
 
 class Numbers(NamedTuple):

@@ -15,13 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from clast import Simulation, load
-from clast.engine.step_keeper import StepKeeper
 from clast.results import checkpoint
 from clast.results.frames import Frames
 from clast.results.memory import peak_memory
 from clast.results.samples import Samples
 from clast.results.store import Store
 from clast.session import Listener, _Session, run_scene
+from clast.stability.step_keeper import StepKeeper
 
 PARTS = 10
 OUTPUT = ("samples", "frames", "saving")

@@ -6,16 +6,15 @@ from math import isfinite
 
 import numpy as np
 
+from clast.building import build_scene
 from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint
-from clast.engine.neighbours import choose_skin, choose_slack, find_pairs
+from clast.engine.neighbours import Skin, choose_skin, choose_slack, find_pairs
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import World
 from clast.engine.tables import empty_pairs
-from clast.engine.time_step import Limits, choose_step, limits, ruling
 from clast.parts.generator import BondList
 from clast.results.fragments import fragments
-from clast.scene.build import build_scene
 from clast.scene.compression import Gauge
 from clast.scene.concerns import concerns
 from clast.scene.packing_report import bond_coordination, contact_coordination, overlaps
@@ -25,6 +24,7 @@ from clast.scene.scatter import scatter_entries
 from clast.scene.scene import Scene
 from clast.scene.start import check_start
 from clast.scene.world import build_world
+from clast.stability.time_step import Limits, choose_step, limits, ruling
 
 Rows = list[tuple[str, str]]
 LIMIT_NAMES = {
@@ -51,7 +51,7 @@ def report(config: SceneConfig) -> str:
     plan = blueprint(scene)
     found = limits(scene, plan)
     step = choose_step(scene, found)
-    world = build_world(scene, plan, step, 2.0 * choose_skin(scene).most)
+    world = build_world(scene, plan, step, 2.0 * _skin(scene).most)
     sections = [
         ("Scene", scene_rows(scene)),
         *((f"Generator {name}", generator_rows(told)) for name, told in scene.report.items()),
@@ -65,6 +65,11 @@ def report(config: SceneConfig) -> str:
         ("Memory", memory_rows(scene, plan, world)),
     ]
     return "\n\n".join(f"{title}\n{table(rows)}" for title, rows in sections if rows)
+
+
+def _skin(scene: Scene) -> Skin:
+    """Return how far neighbour lists reach beyond contact."""
+    return choose_skin(scene.config.neighbours.skin, float(scene.radius.min()))
 
 
 def table(rows: Rows) -> str:
@@ -200,7 +205,7 @@ def memory_rows(scene: Scene, plan: Blueprint, world: World) -> Rows:
         rows.append(("bonds", f"{size:.0f} bytes each, {bond_offsets(plan.bonds)['end']} numbers"))
     if plan.contacts is not None and plan.contacts.between_particles:
         search = scene.config.neighbours.search.part
-        slack = choose_slack(world.particles, choose_skin(scene), world.numbers.dt, most_skin(scene))
+        slack = choose_slack(world.particles, _skin(scene), world.numbers.dt, most_skin(scene))
         if search.told is not None:
             rows.append(("neighbour search", search.told(scene.radius + slack)))
         none = empty_pairs(world.chunks, plan.remembered)

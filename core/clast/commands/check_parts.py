@@ -11,9 +11,9 @@ import yaml
 from rich.console import Console
 from rich.markup import escape
 
+from clast.config.examples import example
 from clast.config.yaml_loader import parse_value
 from clast.errors import PluginError
-from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.plugins.discovery import discover, parts_of
 from clast.plugins.nearest import suggestion

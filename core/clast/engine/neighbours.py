@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +30,10 @@ from clast.engine.wall_frames import arms
 from clast.errors import RunError
 from clast.maths.box import Box
 from clast.parts.neighbour_search import NeighbourSearch
-from clast.scene.repeats import LEAST_SKIN
-from clast.scene.scene import Scene
 
 NearWalls = Callable[..., None]
+LEAST_SKIN = 0.1
+"""Least way that a particle may go between two neighbour searches, as a share of the smallest radius."""
 MOST_SLOTS = 64
 """Contacts that a particle can have with one wall at a time."""
 
@@ -46,15 +46,13 @@ class Skin(NamedTuple):
     steps: float
 
 
-def choose_skin(scene: Scene) -> Skin:
-    """Return the skin of the neighbour lists: as the config says, or between a tenth of the smallest radius and two.
+def choose_skin(wanted: float | Literal["auto"], smallest: float) -> Skin:
+    """Return the skin of the neighbour lists: as wanted, or between a tenth of the smallest radius and two, in m.
 
     A pair more costs about 3 ns a step, a search about 1 µs a particle; 400 steps between searches balance the two.
     """
-    skin = scene.config.neighbours.skin
-    if not isinstance(skin, str):
-        return Skin(0.5 * skin, 0.5 * skin, 0.0)
-    smallest = float(scene.radius.min())
+    if not isinstance(wanted, str):
+        return Skin(0.5 * wanted, 0.5 * wanted, 0.0)
     return Skin(LEAST_SKIN * smallest, 2.0 * smallest, 400.0)
 
 

@@ -13,9 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.about import VERSION
-from clast.engine.mass_scaling import added_mass
 from clast.engine.tables import crack_rows
-from clast.engine.time_step import ruling
 from clast.granular.damage import grain_results
 from clast.results.energy import energy_results
 from clast.results.fragments import fragments
@@ -25,6 +23,8 @@ from clast.results.side import side_results
 from clast.results.warnings import warnings
 from clast.results.whole_file import whole_file
 from clast.simulation import Simulation
+from clast.stability.mass_scaling import added_mass
+from clast.stability.time_step import ruling
 
 FILE = "summary.json"
 LIBRARIES = ("numpy", "numba", "h5py", "scipy")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.kernels.layout import MOST_SHRUNK
+from clast.engine.neighbours import LEAST_SKIN
 from clast.engine.wall_frames import WallFrames, at_start
 from clast.errors import ConfigError
 from clast.maths.box import Box
@@ -21,8 +22,6 @@ from clast.scene.plan import largest_reach
 from clast.scene.scene import Scene, strain_rates
 
 Floats = NDArray[np.float64]
-LEAST_SKIN = 0.1
-"""Least way that a particle may go between two neighbour searches, as a share of the smallest radius."""
 LONGEST_BOND = 0.4
 """Longest bond at the start as a share of a side: it may stretch by a quarter before its ends are nearer round the
 other way."""

@@ -10,12 +10,12 @@ import numpy as np
 
 from clast.engine.blueprint import Blueprint
 from clast.engine.images import growth, velocities_between
-from clast.engine.impact import impact_duration
 from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V, X
 from clast.engine.state import Floats, World
 from clast.engine.wall_frames import fastest_surface, surface_velocities
 from clast.scene.scene import Scene
 from clast.soundness.near import Energies, Nearness
+from clast.stability.impact import impact_duration
 
 LEAST_STEPS = 5.0
 """Fewest steps of an impact; with fewer its restitution is wrong by more than some per cent."""

@@ -11,9 +11,9 @@ import numpy as np
 from hypothesis import strategies as st
 
 from clast.engine.records import numbers
-from clast.engine.rehearsal import Rehearsal
 from clast.maths.vec3 import Vec
 from clast.parts.bond_model import BondLoad, BondModel, Dashpots, RandomKey, Strain
+from clast.scene.rehearsal import Rehearsal
 from clast.testing.bond_bits import compiled_alike
 from clast.testing.bonds import (
     GEOMETRY,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from clast.config.describe import parameters
-from clast.parts.examples import example
+from clast.config.examples import example
 from clast.plugins.registered import Registered
 from clast.testing.claim import Claim, Outcome, try_claims
 

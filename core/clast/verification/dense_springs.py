@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import eigvalsh
 
-from clast.engine.local_bounds import cross_matrices
-from clast.engine.springs import Bodies, Springs
+from clast.stability.local_bounds import cross_matrices
+from clast.stability.springs import Bodies, Springs
 
 
 def assembled(springs: Springs, bodies: Bodies, per_time: float = 0.0) -> np.ndarray:

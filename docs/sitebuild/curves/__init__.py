@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from clast.config.examples import example
 from clast.errors import PluginError
-from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.plugins.registered import Registered
 from sitebuild.curves import bond_model, contact_law, damping, generator, integrator, motion, rolling_resistance, wall

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given, settings
 
 from clast import Simulation
+from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping
 from clast.engine import chunks
 from clast.engine.kernels.layout import V, W, X
 from clast.engine.slots_text import slots_text
 from clast.errors import ConfigError
 from clast.results import checkpoint
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
 from tests.support.integrators import INTEGRATORS
 from tests.support.strategies import vectors

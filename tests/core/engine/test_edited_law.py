@@ -122,8 +122,8 @@ def test_an_edited_law_gives_new_numbers_and_the_old_one_is_still_known(folder):
 
 
 def test_a_law_written_as_a_lambda_is_refused_in_plain_words(folder):
+    from clast.building import build_scene
     from clast.config.scene import load
-    from clast.scene.build import build_scene
 
     text = LAW.replace("constants, stiffness, load,", "constants, stiffness, lambda s, c, state: None,")
     (folder / "law.py").write_text(text)

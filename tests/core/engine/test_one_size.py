@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from clast import load
+from clast.building import build_scene
 from clast.scene import plan
-from clast.scene.build import build_scene
 from clast.simulation import Simulation
 from tests.scenes import COLLISION, CRUSH, write
 

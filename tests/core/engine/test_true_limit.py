@@ -11,17 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clast import load
+from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping
-from clast.engine.damped_step import sensitivity, stable_step
-from clast.engine.impact import impact_duration
-from clast.engine.local_bounds import local_bounds
-from clast.engine.response import respond
-from clast.engine.springs import Bodies, Springs, bodies_at_start, springs_at_start
-from clast.engine.time_step import contact_limit, limits
-from clast.engine.vibration import largest_eigenvalue
 from clast.plugins.discovery import discover
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from clast.stability.damped_step import sensitivity, stable_step
+from clast.stability.impact import impact_duration
+from clast.stability.local_bounds import local_bounds
+from clast.stability.response import respond
+from clast.stability.springs import Bodies, Springs, bodies_at_start, springs_at_start
+from clast.stability.time_step import contact_limit, limits
+from clast.stability.vibration import largest_eigenvalue
 from clast.verification.dense_springs import largest
 from tests.support.contacts import GLASS, contact
 from tests.support.strategies import numbers

@@ -8,8 +8,8 @@ import pytest
 from tests.scenes import write
 
 from clast import load
+from clast.building import build_scene
 from clast.errors import ConfigError
-from clast.scene.build import build_scene
 
 HEAD = """
 materials: {glass: {density: 2500, young_modulus: 1e9, poisson_ratio: 0.2}}

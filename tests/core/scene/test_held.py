@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
+from clast.building import build_scene
 from clast.config.scene import from_mapping
-from clast.scene.build import build_scene
 from clast.scene.held import not_held
 
 BOTTOM = {"type": "plane", "material": "glass", "point": [0, 0, -0.01], "normal": [0, 0.1, 1]}

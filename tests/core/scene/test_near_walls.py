@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from tests.scenes import write
 
 from clast import load
+from clast.building import build_scene
 from clast.engine.wall_frames import WallFrames, at_start
-from clast.scene.build import build_scene
 from clast.scene.near_walls import near_walls
 from clast.scene.plan import wall_shapes
 from clast.scene.scene import Scene

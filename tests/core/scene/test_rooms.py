@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from clast import load
+from clast.building import generated
 from clast.config.scene import SceneConfig, from_mapping
 from clast.errors import ConfigError
 from clast.forecast import forecast
-from clast.scene.build import generated
 from clast.scene.foretold import foretold
 from clast.scene.rooms import open_faces
 

@@ -13,17 +13,16 @@ from tests.scenes import CRUSH, write
 from tests.support.bonds import WRITTEN
 
 from clast import load
+from clast.building import build_scene
 from clast.commands.build_report import report
 from clast.config.scatter import Scatter, can_scatter
 from clast.engine.records import columns
-from clast.engine.time_step import limits
 from clast.errors import ConfigError
 from clast.forecast import forecast
 from clast.maths.distributions import weibull_deviation
 from clast.parts.bond_model import BondGeometry, BondModel, Stiffness
 from clast.parts.params import Params
 from clast.plugins.discovery import discover
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint, bond_constants, bond_stiffness
 from clast.scene.scatter import (
     DASHPOTS,
@@ -36,6 +35,7 @@ from clast.scene.scatter import (
 )
 from clast.scene.start import check_start
 from clast.simulation import Simulation
+from clast.stability.time_step import limits
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 COUNT = 40

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from clast.commands.check_parts import check
-from clast.parts.examples import example
+from clast.config.examples import example
 from clast.plugins.discovery import discover, parts_of
 from clast.plugins.new import starter_text
 from clast.plugins.registry import KINDS

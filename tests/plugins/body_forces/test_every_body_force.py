@@ -8,17 +8,17 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from clast.building import build_scene
 from clast.config.scene import from_mapping
 from clast.engine.slots_text import slots_text
-from clast.engine.time_step import limits
 from clast.errors import PluginError
 from clast.maths.vec3 import ZERO, scale
 from clast.parts.params import Params
 from clast.parts.wall import BodyForce
 from clast.plugins.discovery import discover
-from clast.scene.build import build_scene
 from clast.scene.held import not_held
 from clast.scene.plan import blueprint
+from clast.stability.time_step import limits
 from clast.testing.body_force import claims
 from clast.testing.claim import try_claims
 from clast.testing.kit import try_part

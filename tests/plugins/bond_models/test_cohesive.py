@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clast import load
+from clast.building import build_scene
 from clast.errors import ConfigError
 from clast.forecast import forecast
 from clast.parts.bond_model import Strain
-from clast.scene.build import build_scene
 from tests.support.bonds import GEOMETRY, L0, WRITTEN, E, G, R, bent, follow, law, respond, scaled, strains, stretch
 from tests.support.strategies import numbers
 

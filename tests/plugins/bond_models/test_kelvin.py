@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from clast import load
+from clast.building import build_scene
+from clast.config.examples import example
 from clast.config.scene import SceneConfig
-from clast.engine.time_step import limits
 from clast.forecast import forecast
 from clast.parts.bond_model import Dashpots
-from clast.parts.examples import example
 from clast.plugins.discovery import discover
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients
+from clast.stability.time_step import limits
 from clast.testing.bond_model import claims
 from clast.testing.claim import try_claims
 from clast_plugins.bond_models import elastic

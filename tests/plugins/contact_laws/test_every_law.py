@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from clast.config.examples import example
 from clast.maths.vec3 import ZERO, add, dot, scale
 from clast.parts.contact_law import NO_DRAG, Features, Touch
-from clast.parts.examples import example
 from clast.plugins.discovery import discover
 from clast.testing.bits import same_bits
 from clast.testing.contacts import RADIUS, contact, resting

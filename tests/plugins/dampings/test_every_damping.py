@@ -4,9 +4,9 @@ from math import inf
 
 import pytest
 
+from clast.config.examples import example
 from clast.config.scene import from_mapping
 from clast.parts.damping import Damping
-from clast.parts.examples import example
 from clast.plugins.discovery import discover
 from clast.simulation import Simulation
 from clast.testing.kit import try_part

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from clast.building import build_scene
 from clast.config.scene import load
 from clast.engine import chunks
 from clast.engine.kernels.layout import DOWNHILL
@@ -13,7 +14,6 @@ from clast.engine.slots_text import slots_text
 from clast.errors import ConfigError
 from clast.plugins.discovery import discover
 from clast.results import checkpoint
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint, refuse_steering
 from clast.simulation import Simulation
 from clast.testing.damping import added

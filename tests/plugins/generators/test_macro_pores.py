@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from clast import load
+from clast.building import build_scene
 from clast.commands.build_report import report
 from clast.config.scene import SceneConfig
 from clast.errors import ConfigError, PackingError
 from clast.forecast import forecast
 from clast.parts.generator import Packing, Site
-from clast.scene.build import build_scene
 from clast.scene.packing_report import cut_sphere_volume, porosity, sphere_volume
 from clast_plugins.generators import flattened_agglomerate, spherical_agglomerate
 from clast_plugins.generators.flattened_agglomerate import FlattenedAgglomerate

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from tests.scenes import write
 
 from clast import load
+from clast.building import build_scene, generated
 from clast.config.scene import SceneConfig, from_mapping
 from clast.errors import ClastError, ConfigError, PackingError
 from clast.forecast import forecast
 from clast.parts.generator import Packing
-from clast.scene.build import build_scene, generated
 from clast.scene.concerns import concerns
 from clast.scene.packing_report import overlaps
 

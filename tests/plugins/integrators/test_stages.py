@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from scipy.linalg import expm
 
-from clast.engine.damped_step import ACCURACY, stable_step
 from clast.parts.integrator import Integrator, amplification, stable_share
 from clast.plugins.discovery import discover
+from clast.stability.damped_step import ACCURACY, stable_step
 from tests.support.strategies import numbers
 
 each = pytest.mark.parametrize("name", discover().names("integrator"))

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from scipy.integrate import quad
 
-from clast.parts.examples import example
+from clast.config.examples import example
 from clast.parts.wall import Motion, Pressed
 from clast.plugins.discovery import discover
 from clast.testing.kit import try_part

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping
 from clast.engine.kernels.layout import ANGLE, ARM
 from clast.engine.wall_frames import WallFrames, surface_velocities
@@ -16,7 +17,6 @@ from clast.errors import ConfigError
 from clast.results import checkpoint
 from clast.results.run import open_run
 from clast.results.wall_mesh import WallMesh
-from clast.scene.build import build_scene
 from clast.scene.repeats import check_repeats
 from clast.session import run_scene
 from clast.simulation import Simulation

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 
+from clast.config.examples import example
 from clast.maths.vec3 import across, add, cross, dot, norm, scale, sub
-from clast.parts.examples import example
 from clast.parts.rolling_resistance import Pressing
 from clast.plugins.discovery import discover
 from clast.testing.contacts import DT, GLASS, MASS, RADIUS, resting, touches

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from clast.config.examples import example
 from clast.errors import PluginError
-from clast.parts.examples import example
 from clast.parts.params import Params
 from clast.parts.stop import UNBALANCE, Stop
 from clast.plugins.discovery import discover

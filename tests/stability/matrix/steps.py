@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from clast.building import build_scene
 from clast.config.scene import SceneConfig
-from clast.engine.time_step import limits
-from clast.scene.build import build_scene
 from clast.scene.plan import blueprint
+from clast.stability.time_step import limits
 from tests.stability.entry import ACCURATE, REFUSED, STOPPED, Answer, Entry, Group, Ran
 from tests.stability.measures import drift, kinetic
 from tests.stability.scenes import block, bonded, particle, spheres

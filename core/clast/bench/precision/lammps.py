@@ -17,8 +17,8 @@ from clast.bench.precision.sweep import Point, Series, relative
 from clast.bench.scenes import NUMBERS, Body
 from clast.bench.section import Effort, Task
 from clast.bench.throughput import PEER
+from clast.building import build_scene
 from clast.engine.state import Floats
-from clast.scene.build import build_scene
 
 ORDER = 2.0
 FINER = 8

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from clast.engine.damped_step import stable_step
 from clast.engine.kernels.layout import V
-from clast.engine.springs import bodies_at_start, springs_at_start
 from clast.errors import RunError
 from clast.simulation import Simulation
+from clast.stability.damped_step import stable_step
+from clast.stability.springs import bodies_at_start, springs_at_start
 from clast.verification import needs
 from clast.verification.bench import Bench
 from clast.verification.case import Case, Family, Findings

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.compiler import compiled
-from clast.engine.springs import Bodies, Springs
+from clast.stability.springs import Bodies, Springs
 
 Floats = NDArray[np.float64]
 ACCURACY, SETTLED = 0.01, 1e-3

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.damped_step import sensitivity
-from clast.engine.local_bounds import local_bounds
-from clast.engine.springs import bodies_at_start, springs_at_start
 from clast.scene.plan import blueprint
 from clast.scene.scene import Scene
+from clast.stability.damped_step import sensitivity
+from clast.stability.local_bounds import local_bounds
+from clast.stability.springs import bodies_at_start, springs_at_start
 
 Floats = NDArray[np.float64]
 MOST, OVER = 300, 1.001

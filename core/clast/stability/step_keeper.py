@@ -8,10 +8,15 @@ import numpy as np
 
 from clast.config.sections import StepRule
 from clast.engine.blueprint import Blueprint
-from clast.engine.damped_step import sensitivity, stable_step
 from clast.engine.kernels.layout import FIRST, INVERSE_INERTIA, INVERSE_MASS, RADIUS, V, X
-from clast.engine.local_bounds import rough_bound
-from clast.engine.springs import (
+from clast.engine.state import World
+from clast.engine.tables import box_now, intact
+from clast.engine.wall_frames import now
+from clast.errors import RunError
+from clast.scene.scene import Scene
+from clast.stability.damped_step import sensitivity, stable_step
+from clast.stability.local_bounds import rough_bound
+from clast.stability.springs import (
     Bodies,
     Springs,
     bond_springs,
@@ -21,12 +26,7 @@ from clast.engine.springs import (
     joined,
     wall_springs,
 )
-from clast.engine.state import World
-from clast.engine.tables import box_now, intact
-from clast.engine.vibration import largest_eigenvalue
-from clast.engine.wall_frames import now
-from clast.errors import RunError
-from clast.scene.scene import Scene
+from clast.stability.vibration import largest_eigenvalue
 
 EVERY, PARTICLE_STEPS = 4000, 40_000
 """Steps between two looks: a look costs about 20 steps of a grain of a few hundred particles, and more of fewer."""

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.response import Response, respond, rolling_response
 from clast.engine.wall_feet import feet
 from clast.engine.wall_frames import WallFrames, at_start
 from clast.maths.box import Box, open_space
@@ -17,6 +16,7 @@ from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
 from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs
 from clast.scene.scene import Scene
+from clast.stability.response import Response, respond, rolling_response
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
-from clast.engine.mass_scaling import with_heavier_particles
 from clast.errors import ConfigError, KeyPath
 from clast.maths.box import Box
 from clast.parts.generator import BondList, Packing
@@ -18,6 +17,7 @@ from clast.scene.bonding import bond_neighbours, doubled
 from clast.scene.foretold import foretold, site
 from clast.scene.scatter import draw_factors, scatter_entries
 from clast.scene.scene import Origin, Scene, box_of, strain_rates
+from clast.stability.mass_scaling import with_heavier_particles
 
 EXTREME = 1e-100
 """Smallest mass in kg and inertia in kg m² that is computed with; the largest are its inverse."""

@@ -15,15 +15,15 @@ import numpy as np
 from clast.config.scene import SceneConfig
 from clast.config.sections import IMPACT_SPEED, StepRule
 from clast.engine.blueprint import Blueprint
-from clast.engine.impact import impact_duration
 from clast.engine.records import build, width
 from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import Touch
 from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients, material_pairs
 from clast.scene.scene import Scene
+from clast.stability.impact import impact_duration
 
 if TYPE_CHECKING:
-    from clast.engine.springs import Bodies, Springs
+    from clast.stability.springs import Bodies, Springs
 
 
 class Limits(NamedTuple):
@@ -65,9 +65,9 @@ class Limits(NamedTuple):
 
 def limits(scene: Scene, plan: Blueprint) -> Limits:
     """Return all limits of a scene at its start."""
-    from clast.engine.damped_step import stable_step
-    from clast.engine.springs import bodies_at_start, bond_springs, springs_at_start
-    from clast.engine.vibration import largest_eigenvalue
+    from clast.stability.damped_step import stable_step
+    from clast.stability.springs import bodies_at_start, bond_springs, springs_at_start
+    from clast.stability.vibration import largest_eigenvalue
 
     bodies, springs = bodies_at_start(scene), springs_at_start(scene, plan)
     bonds = bond_springs(scene, bodies, np.ones(len(scene.ends), bool))
@@ -84,7 +84,7 @@ def limits(scene: Scene, plan: Blueprint) -> Limits:
 
 def local_limit(scene: Scene) -> float:
     """Return a bound that is never above the true limit of what holds at the start, for one particle at a time."""
-    from clast.engine.springs import bodies_at_start, springs_at_start
+    from clast.stability.springs import bodies_at_start, springs_at_start
 
     plan = blueprint(scene)
     return _local(springs_at_start(scene, plan), bodies_at_start(scene), plan.damping_factor)
@@ -92,15 +92,15 @@ def local_limit(scene: Scene) -> float:
 
 def drag_limit(scene: Scene) -> float:
     """Return the largest step in s that is stable with the dashpots of body forces alone; infinite without any."""
-    from clast.engine.springs import bodies_at_start, drag_springs
+    from clast.stability.springs import bodies_at_start, drag_springs
 
     bodies = bodies_at_start(scene)
     return _local(drag_springs(scene, bodies, scene.velocity), bodies, blueprint(scene).damping_factor)
 
 
 def _local(springs: Springs, bodies: Bodies, factor: Callable[[float], float]) -> float:
-    from clast.engine.damped_step import stable_step
-    from clast.engine.local_bounds import local_bounds
+    from clast.stability.damped_step import stable_step
+    from clast.stability.local_bounds import local_bounds
 
     return stable_step(lambda per_time: float(local_bounds(springs, bodies, per_time).max()), factor)
 
@@ -170,7 +170,7 @@ def pair_limit(scene: Scene) -> float:
     Without dashpots the smallest 2/√(K (1/m_i + 1/m_j)). The other bonds only add energy to the stretching of this one,
     so ω_max of the scene is at least as large.
     """
-    from clast.engine.damped_step import stable_step
+    from clast.stability.damped_step import stable_step
 
     if len(scene.ends) == 0:
         return np.inf

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.engine.springs import Bodies, Springs, chosen
+from clast.stability.springs import Bodies, Springs, chosen
 
 Floats = NDArray[np.float64]
 AT_ONCE = 50_000
