@@ -15,9 +15,13 @@ from clast.engine.state import Walls
 from clast.scene.approach import time_of
 from clast.scene.scene import is_logarithmic, strain_rates
 from clast.scene.side_walls import SideWalls, side_walls
+from clast.scene.turning import spins
 
 Floats = NDArray[np.float64]
 MOST_STEPS = 10**12
+TILTED = 1e-6
+"""Sine of the angle between axis and line up to which a plate counts as turning about that."""
+
 MOST_OFF = 0.01
 """Share by which height and diameter, or area, of a compression with a side may differ from those of the walls."""
 
@@ -65,6 +69,7 @@ class Gauge:
             line = self._line()
             self.distance = float(np.linalg.norm(line))
             self.axis = line / self.distance
+            self._refuse_tilting(self.axis)
             self.side = self._side(self.axis)
 
     def _line(self) -> Floats:
@@ -77,6 +82,18 @@ class Gauge:
                 "them",
             )
         return line
+
+    def _refuse_tilting(self, axis: Floats) -> None:
+        """Refuse plates that turn about anything but the line between them: how far apart would they be?"""
+        plates = (self.names[self.upper], self.names[self.lower])
+        for path, motion in self.config.motions:
+            turned = spins(motion)
+            if path[1] in plates and np.abs(np.cross(turned, axis)).max() > TILTED * np.abs(turned).max():
+                raise self.config.problem(
+                    path,
+                    "a plate of the compression may turn about the line between the plates only, as strain is read off "
+                    "their distance; turn it about that, or leave the compression out",
+                )
 
     def _side(self, axis: Floats) -> SideWalls | None:
         """Return the walls around, after the height between the plates and the section were held against them."""

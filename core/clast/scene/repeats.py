@@ -13,21 +13,19 @@ from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.kernels.layout import MOST_SHRUNK
 from clast.engine.neighbours import LEAST_SKIN
-from clast.engine.wall_frames import WallFrames, at_start
 from clast.errors import ConfigError
 from clast.maths.box import Box
 from clast.maths.vec3 import ZERO, Vec
 from clast.scene.held import pull_of
 from clast.scene.plan import largest_reach
 from clast.scene.scene import Scene, strain_rates
+from clast.scene.turning import spins
 
 Floats = NDArray[np.float64]
 LONGEST_BOND = 0.4
 """Longest bond at the start as a share of a side: it may stretch by a quarter before its ends are nearer round the
 other way."""
 PLACES = 64
-TIMES = (0.0, 1e-6, 1e-3, 1.0, 1e3)
-"""Times in s at which walls are asked about which axis they turn."""
 ALIKE = 1e-9
 """Difference of two distances or accelerations that rounding may make, as a share."""
 
@@ -75,6 +73,7 @@ def check_repeats(scene: Scene) -> None:
         _refuse_short_sides(scene)
         _refuse_long_bonds(scene)
         _refuse_uneven_walls(scene)
+        _refuse_turned_images(scene)
         _refuse_uneven_forces(scene)
         _refuse_what_stays_behind(scene)
 
@@ -125,27 +124,22 @@ def _even(wall: WallChoice, scene: Scene, axis: int) -> bool:
     step = np.zeros(3)
     step[axis] = scene.box.span[axis]
     asked = scene.position[:: -(-len(scene.position) // PLACES)]
-    frames = [at_start(1), *([] if wall.pivot is None else _turned(wall))]
-    for frame in frames:
-        here = np.array([wall.distance(x) for x in frame.seen(0, asked)])
-        there = np.array([wall.distance(x) for x in frame.seen(0, asked + step)])
-        if not np.all(np.abs(here - there) <= ALIKE * (np.abs(here) + step[axis])):
-            return False
-    return True
+    here = np.array([wall.distance(x) for x in asked])
+    there = np.array([wall.distance(x) for x in asked + step])
+    return bool(np.all(np.abs(here - there) <= ALIKE * (np.abs(here) + step[axis])))
 
 
-def _turned(wall: WallChoice) -> list[WallFrames]:
-    """Return the frames of a wall that each of its motions has turned by a radian."""
-    frames = []
-    for motion in (stage.motion for stage in wall.stages if stage.motion.part.spin is not None):
-        course = motion.part.course(motion.params)
-        spins = np.array([motion.part.spin(course, t) for t in TIMES])
-        axis = spins[int(np.argmax(np.linalg.norm(spins, axis=1)))]
-        if np.any(axis):
-            x, y, z = (np.sin(0.5) * axis / np.linalg.norm(axis)).tolist()
-            pose = np.array([[0.0, 0.0, 0.0, np.cos(0.5), x, y, z]])
-            frames.append(WallFrames(pose, np.array([wall.pivot])))
-    return frames
+def _refuse_turned_images(scene: Scene) -> None:
+    """Refuse walls that turn about another axis than that of the images: they would tilt, or move apart, for some."""
+    for path, motion in scene.config.motions:
+        for axis in np.flatnonzero(scene.box.periodic):
+            across = spins(motion)[:, np.arange(3) != axis]
+            if np.any(across):
+                raise scene.config.problem(
+                    path,
+                    f"the domain is periodic along {'xyz'[axis]}, and what turns about another axis is not the same in "
+                    "every image; turn it about that one, or remove the direction from boundaries.domain.periodic",
+                )
 
 
 def _refuse_uneven_forces(scene: Scene) -> None:

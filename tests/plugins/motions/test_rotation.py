@@ -17,6 +17,7 @@ from clast.errors import ConfigError
 from clast.results import checkpoint
 from clast.results.run import open_run
 from clast.results.wall_mesh import WallMesh
+from clast.scene.compression import Gauge
 from clast.scene.repeats import check_repeats
 from clast.session import run_scene
 from clast.simulation import Simulation
@@ -153,3 +154,19 @@ def test_in_a_periodic_box_a_wall_may_turn_if_it_stays_the_same_in_every_image(a
     else:
         with pytest.raises(ConfigError, match="not the same in every image"):
             check_repeats(scene)
+
+
+@pytest.mark.parametrize(("axis", "fits"), [([0, 0, 1], True), ([0, 0, -2], True), ([1, 0, 0], False)])
+def test_plates_of_a_compression_turn_about_the_line_between_them_only(axis: list[int], fits: bool) -> None:
+    plates = {
+        name: {"type": "plane", "material": "glass", "point": [0, 0, -s * 6e-3], "normal": [0, 0, s]}
+        for name, s in (("lower", 1), ("upper", -1))
+    }
+    plates["lower"] |= {"motion": TURNING | {"axis": axis}}
+    pressed = {"upper": "upper", "lower": "lower", "height": 12e-3, "diameter": 10e-3}
+    config = mixer(walls=plates, compression=pressed)
+    if fits:
+        Gauge(config)
+    else:
+        with pytest.raises(ConfigError, match="may turn about the line between the plates only"):
+            Gauge(config)
