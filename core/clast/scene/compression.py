@@ -84,7 +84,7 @@ class Gauge:
         return line
 
     def _refuse_tilting(self, axis: Floats) -> None:
-        """Refuse plates that turn about anything but the line between them: how far apart would they be?"""
+        """Refuse plates that turn about anything but the line between them, so that they tilt."""
         plates = (self.names[self.upper], self.names[self.lower])
         for path, motion in self.config.motions:
             turned = spins(motion)
