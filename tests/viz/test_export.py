@@ -187,7 +187,7 @@ def test_mistakes_are_told_in_one_message(grain_folder: Path, tmp_path: Path) ->
     assert told(grain_folder, *out, "--frames", "7:3") == (2, f"--frames 7:3: names no frame; {count}\n")
     allowed = "give 'all', 'last', numbers such as 0,5,-1, or a range such as 0:100:10"
     assert told(grain_folder, *out, "--frames", "first") == (2, f"--frames first: {allowed}\n")
-    assert told(tmp_path, *out)[0] == 1
+    assert told(tmp_path, *out)[0] == 2
     assert list(tmp_path.iterdir()) == []
 
 

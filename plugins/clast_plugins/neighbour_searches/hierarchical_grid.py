@@ -43,7 +43,7 @@ class HierarchicalGrid(Params):
 
 def find_pairs(position: Floats, reach: Floats) -> NDArray[np.uint32]:
     """Return all pairs with |x_i − x_j| < reach_i + reach_j, as brute force does."""
-    from clast_plugins.neighbour_searches.hierarchical_grid_loop import search_grids
+    from clast_plugins.neighbour_searches.grids_kernel import search_grids
 
     n = len(position)
     if n < 2:

@@ -127,7 +127,7 @@ def test_the_sources_of_every_part_are_files_of_plugins_and_of_clast_with_their_
         files = source_files(functions)
         assert all(path.is_relative_to(CONFIGS.parent) for path in files)
         names[chosen.name] = {path.name for path in files}
-    assert {"linked_cells_kernel.py", "hierarchical_grid_loop.py"} <= names["auto"]
+    assert {"linked_cells_kernel.py", "grids_kernel.py"} <= names["auto"]
     assert {"relax.py", "overlap_kernel.py"} <= names["flattened_agglomerate"]
 
 
