@@ -81,24 +81,24 @@ def worst_share(values: Any, expected: float) -> float:
 FAMILY = Family(
     "turning_walls",
     "Walls that turn",
-    "A ball that rolls on a turntable goes round, like a charge in a magnetic field, at a share I/(I + m R²) of the "
-    "table's rate: 2/7. R is its height above the table, a little less than its radius. On a ramp that is tilted "
-    "slowly, three spheres held by bonds slide from the angle of friction on.",
+    "On a ramp that is tilted slowly, three spheres held by bonds slide from the angle of friction on. A ball that rolls "
+    "on a turntable goes round, like a charge in a magnetic field, at a share I/(I + m R²) of the table's rate: 2/7. R "
+    "is its height above the table, a little less than its radius.",
     (
-        Case(
-            "turntable",
-            "a ball rolls on a table that turns",
-            "turning_walls",
-            judge_turntable,
-            "J. A. Burns (1981), American Journal of Physics 49, 56: circles at 2/7 of the rate",
-            (needs.sticks,),
-        ),
         Case(
             "tilted_ramp",
             "three spheres on a ramp that is tilted",
             "turning_walls",
             judge_ramp,
             "Coulomb: they slide where tan θ is the coefficient of friction, and then with g (sin θ - μ cos θ)",
+            (needs.sticks,),
+        ),
+        Case(
+            "turntable",
+            "a ball rolls on a table that turns",
+            "turning_walls",
+            judge_turntable,
+            "J. A. Burns (1981), American Journal of Physics 49, 56: circles at 2/7 of the rate",
             (needs.sticks,),
         ),
     ),
