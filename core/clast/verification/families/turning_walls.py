@@ -82,8 +82,8 @@ FAMILY = Family(
     "turning_walls",
     "Walls that turn",
     "On a ramp that is tilted slowly, three spheres held by bonds slide from the angle of friction on. A ball that "
-    "rolls on a turntable goes round, like a charge in a magnetic field, at a share I/(I + m R²) of the table's rate: 2/7. R "
-    "is its height above the table, a little less than its radius.",
+    "rolls on a turntable goes round, like a charge in a magnetic field, at a share I/(I + m R²) of the table's rate: "
+    "2/7. R is its height above the table, a little less than its radius.",
     (
         Case(
             "tilted_ramp",
