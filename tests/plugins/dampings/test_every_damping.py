@@ -4,11 +4,12 @@ from math import inf
 
 import pytest
 
-from clast.config.examples import example
 from clast.config.scene import from_mapping
 from clast.parts.damping import Damping
+from clast.parts.params import Params
 from clast.plugins.discovery import discover
 from clast.simulation import Simulation
+from clast.testing.damping import added
 from clast.testing.kit import try_part
 
 each = pytest.mark.parametrize("name", discover().names("damping"))
@@ -25,19 +26,19 @@ def test_it_keeps_to_what_holds_for_every_damping(name):
     assert [outcome for outcome in outcomes if not outcome.passed] == []
 
 
-def farthest(name: str, integrator: str, h: float, factor: float) -> float:
+def farthest(damping: Damping, params: Params, integrator: str, h: float) -> float:
     """Return how far from rest x'' = −x comes in 600 steps under a damping, from several starts."""
-    damping, stages = part(name), discover().get("integrator", integrator).part.stages
-    told, most = damping.numbers(example(damping.Params, {"factor": factor})), 0.0
+    stages = discover().get("integrator", integrator).part.stages
+    told, most = damping.numbers(params), 0.0
     for x, v in ((1.0, 0.0), (0.3, -0.8), (-0.1, 1.0), (0.7, 0.7)):
         a = -x
         for _ in range(600):
             for stage in stages:
                 v += stage.kick_before * a * h
                 x += stage.drift_before * v * h
-                seen = v + stage.predict * a * h
+                seen = v + stage.predict * a * h if damping.steering is None else v
                 a = -x
-                a += damping.braking(told, (a, 0.0, 0.0), (seen, 0.0, 0.0))[0]
+                a += added(damping, told, [(a, 0.0, 0.0)], [(seen, 0.0, 0.0)], h)[0][0]
                 v += stage.kick_after * a * h
                 x += stage.drift_after * v * h
             most = max(most, abs(x))
@@ -47,12 +48,15 @@ def farthest(name: str, integrator: str, h: float, factor: float) -> float:
 
 
 @scheme
-@pytest.mark.parametrize("factor", [0.1, 0.4, 0.7, 0.8])
-def test_local_damping_leaves_the_step_it_promises_and_little_more(integrator, factor):
-    damping = part("local")
-    limit = 2.0 * damping.step_share(example(damping.Params, {"factor": factor}))
-    assert farthest("local", integrator, 0.98 * limit, factor) < 10.0
-    assert farthest("local", integrator, 1.05 * limit, factor) == inf
+@pytest.mark.parametrize(
+    ("name", "given"), [*(("local", {"factor": factor}) for factor in (0.1, 0.4, 0.7, 0.8)), ("fire", {})]
+)
+def test_a_damping_leaves_the_step_it_promises_and_little_more(integrator, name, given):
+    damping = part(name)
+    params = damping.Params(**given)
+    limit = 2.0 * damping.step_share(params)
+    assert farthest(damping, params, integrator, 0.98 * limit) < 10.0
+    assert farthest(damping, params, integrator, 1.05 * limit) == inf
 
 
 def test_the_limit_of_a_scene_takes_it_into_account():
