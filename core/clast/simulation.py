@@ -14,17 +14,17 @@ from clast.engine.assemble import Kernel, assemble
 from clast.engine.crew import Crew
 from clast.engine.kernels.layout import FIRST, INTACT, LEFT, STALE, START, STEP, X
 from clast.engine.ledger import Ledger, read_ledger
-from clast.engine.neighbours import choose_skin, choose_slack, find_pairs, find_wall_pairs, remember_positions
 from clast.engine.parts_used import parts_of
+from clast.engine.runaways import runaways
 from clast.engine.state import Floats, World
 from clast.engine.tables import box_now, slot_view, take_out
 from clast.engine.timeline import Span, Timeline
 from clast.errors import RunError
 from clast.maths.box import Box
 from clast.scene.compression import Gauge
-from clast.scene.plan import blueprint, largest_reach
+from clast.scene.neighbour_lists import NeighbourLists
+from clast.scene.plan import blueprint
 from clast.scene.rehearsal import try_laws
-from clast.scene.repeats import most_skin, search_slack
 from clast.scene.scene import Scene
 from clast.scene.start import check_start, outside_of
 from clast.scene.world import build_world, relieve
@@ -67,8 +67,8 @@ class Simulation:
         Which step is at what time.
     keeper : StepKeeper
         Takes smaller steps when contacts become stiffer.
-    reach : float
-        How far beyond touch contacts can hold at the most, in m.
+    lists : NeighbourLists
+        Makes neighbour lists anew when they go stale.
     crew : Crew
         The threads that share the steps; the results do not depend on their number.
     world : World
@@ -79,8 +79,8 @@ class Simulation:
         Step at which the scene ends, with the present time step.
     planned_steps : int
         The same with the first time step.
-    removed, rebuilds : int
-        How many particles have left the domain; how often neighbour lists were made.
+    removed : int
+        How many particles have left the domain.
     ended : Ended or None
         Why the run ended early.
     soundness : Soundness
@@ -100,18 +100,17 @@ class Simulation:
         self.timeline = Timeline([Span(0, 0.0, choose_step(self.scene, self.limits))])
         self.keeper = StepKeeper(self.scene, self.plan)
         self.keeper.above = self.dt / self.limits.stable
-        self.skin = choose_skin(config.neighbours.skin, float(self.scene.radius.min()))
-        self.reach = largest_reach(self.scene)
         self.last_step = self.planned_steps = self.gauge.last_step(self.dt)
         self.kernel: Kernel = assemble(self.plan, try_laws(self.scene, self.plan))
         if compiling is not None and self.kernel.fresh:
             compiling()
         self.soundness = Soundness(self.scene, self.plan, self.dt / self.limits.spectral, self.kernel.gaps)
-        self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.skin.most)
+        self.lists = NeighbourLists(self.scene, self.plan, self.kernel.near_walls)
+        self.world: World = build_world(self.scene, self.plan, self.dt, 2.0 * self.lists.skin.most)
         self.crew = Crew(threads, self.world)
-        self.removed = self.rebuilds = 0
+        self.removed = 0
         self.ended: Ended | None = None
-        self.renew_lists()
+        self.world = self.lists.made_anew(self.world, self.dt)
         if self.plan.contacts is not None and self.plan.contacts.rests:
             relieve(self.scene, self.world.pairs)
         if self.plan.ledger:
@@ -188,12 +187,14 @@ class Simulation:
                 return
 
     def _advance_to(self, step: int) -> None:
-        """Advance to a step, making neighbour lists anew whenever they go stale."""
+        """Advance to a step, bringing neighbour lists up to date whenever they go stale."""
         while self.crew.advance(self.kernel.advance, self.world, step, self.step) == STALE:
-            self._stop_for(self.soundness.motion_complaint(self.world, self.dt))
+            away = runaways(self.world.particles, self.world.chunks, self.world.stale)
+            self._stop_for(self.soundness.complaint_of(away, self.world, self.dt))
             self._remove_leavers()
-            self.renew_lists()
-            self._stop_for(self.soundness.complaint(self.world, self.dt))
+            self.world, fresh = self.lists.brought_up_to_date(self.world, away, self.dt)
+            look = self.soundness.complaint if fresh is self.world else self.soundness.contact_complaint
+            self._stop_for(look(fresh, self.dt))
 
     def change_step(self, dt: float) -> None:
         """Take steps of another size in s from now on.
@@ -220,26 +221,6 @@ class Simulation:
     def stable_step(self) -> float:
         """Return the largest stable step of the scene as it stands, in s; infinite where nothing holds or touches."""
         return self.keeper.limit(self.keeper.present(self.world))
-
-    def renew_lists(self) -> None:
-        """Search for neighbours at the present positions."""
-        world = self.world
-        particles = world.particles
-        slack = choose_slack(particles, self.skin, self.dt, most_skin(self.scene, self.box))
-        if self.plan.contacts is not None:
-            search = self.config.neighbours.search.part
-            if self.plan.contacts.between_particles:
-                wide = search_slack(self.scene, slack + 0.5 * self.reach)
-                given = (particles, world.chunks, world.bonds, world.pairs, search, wide)
-                pairs = find_pairs(*given, self.box)
-                world = world._replace(pairs=pairs)
-            if self.plan.walls:
-                walls, near_walls, far = world.walls, self.kernel.near_walls, self.skin.most + self.reach
-                near = find_wall_pairs(particles, walls, world.wall_pairs, near_walls, slack, far)
-                world = world._replace(wall_pairs=near)
-        remember_positions(particles, world.walls, slack)
-        self.world = world
-        self.rebuilds += 1
 
     def bond_loads(self) -> Floats:
         """Return what every bond carries now, (m, 8); columns as in ``kernels.observe``."""
@@ -295,5 +276,6 @@ class Simulation:
         before = self.ledger().stored if self.plan.ledger else 0.0
         self.removed += int(leaving.sum())
         take_out(particles, bonds, leaving)
+        self.lists.discard()
         if self.plan.ledger:
             self.world.ledger[-1, LEFT] += before - self.ledger().stored

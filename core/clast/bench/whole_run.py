@@ -20,6 +20,7 @@ from clast.results.frames import Frames
 from clast.results.memory import peak_memory
 from clast.results.samples import Samples
 from clast.results.store import Store
+from clast.scene.neighbour_lists import NeighbourLists
 from clast.session import Listener, _Session, run_scene
 from clast.stability.step_keeper import StepKeeper
 
@@ -51,7 +52,7 @@ class Clocks(Listener):
         """Note how far the run is."""
         strain = simulation.gauge.strain(simulation.world.walls)
         stepping = time.process_time() - self.begun - sum(self.spent[name] for name in OUTPUT)
-        self.marks.append((simulation.step, strain, stepping, simulation.rebuilds))
+        self.marks.append((simulation.step, strain, stepping, simulation.lists.made))
 
     def stop(self) -> None:
         """Stop the clocks: the last step is taken."""
@@ -75,7 +76,8 @@ class Clocks(Listener):
 
     def watch(self) -> None:
         """Clock the lists of neighbours, the looks at the stable step, and what a session does besides stepping."""
-        Simulation.renew_lists = self.timed("lists", Simulation.renew_lists)  # type: ignore[method-assign]
+        lists = self.timed("lists", NeighbourLists.brought_up_to_date)
+        NeighbourLists.brought_up_to_date = lists  # type: ignore[method-assign]
         StepKeeper.look = self.timed("limit", StepKeeper.look)  # type: ignore[method-assign]
         Samples.observe = self.timed("samples", Samples.observe)  # type: ignore[method-assign]
         Store.flush = self.timed("saving", Store.flush)  # type: ignore[method-assign]

@@ -9,7 +9,8 @@ import numpy as np
 from clast.building import build_scene
 from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint
-from clast.engine.neighbours import Skin, choose_skin, choose_slack, find_pairs
+from clast.engine.neighbours import find_pairs
+from clast.engine.skins import Skin, choose_skin, choose_slack
 from clast.engine.slots_text import bond_offsets
 from clast.engine.state import World
 from clast.engine.tables import empty_pairs

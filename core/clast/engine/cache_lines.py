@@ -5,6 +5,7 @@ Where numpy's arrays begin differs from one start of the program to the next, an
 
 from __future__ import annotations
 
+import math
 from typing import Any, TypeVar
 
 import numpy as np
@@ -29,8 +30,14 @@ def on_line(array: NDArray[Any], place: int = 0) -> NDArray[Any]:
     >>> on_line(np.arange(3.0), LINE).ctypes.data % PAGE
     64
     """
-    room = np.empty(array.nbytes + PAGE, np.uint8)
-    first = (place - room.ctypes.data) % PAGE
-    copy = room[first : first + array.nbytes].view(array.dtype).reshape(array.shape)
+    copy = room_on_line(array.shape, array.dtype, place)
     copy[...] = array
     return copy
+
+
+def room_on_line(shape: tuple[int, ...], dtype: np.dtype[Any], place: int = 0) -> NDArray[Any]:
+    """Return an array that begins so many bytes into a page, and holds anything."""
+    size = math.prod(shape) * dtype.itemsize
+    room = np.empty(size + PAGE, np.uint8)
+    first = (place - room.ctypes.data) % PAGE
+    return room[first : first + size].view(dtype).reshape(shape)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,9 +70,10 @@ class Bonds(NamedTuple):
 class Pairs(NamedTuple):
     """Pairs of particles that may touch, in rising order within each chunk.
 
-    ``sides`` tells which ends a row loads; ``begin`` (c + 1,) where each chunk's rows begin; ``bond`` is the place of
-    the pair's bond in the bond table, −1 for none; ``rest`` the overlap in m up to which the pair does not push;
-    ``history`` (p, 3 + h) holds the last normal and what the contact law remembers.
+    ``sides`` tells which ends a row loads; ``bond`` is the place of the pair's bond in the bond table, −1 for none;
+    ``rest`` the overlap in m up to which the pair does not push; ``history`` (p, 3 + h) holds the last normal and what
+    the contact law remembers. Chunk c has its rows from ``begin[c]`` to ``end[c]``, and behind them room for more up to
+    ``begin[c + 1]``: rows that load nothing.
     """
 
     first: Indices
@@ -83,6 +84,12 @@ class Pairs(NamedTuple):
     touching: Bytes
     history: Floats
     begin: Indices
+    end: Indices
+
+    @property
+    def tables(self) -> list[NDArray[Any]]:
+        """What has a row for each pair."""
+        return list(self[:-2])
 
 
 class WallPairs(NamedTuple):

@@ -233,6 +233,7 @@ def empty_pairs(chunks: Indices, remembered: int) -> Pairs:
         flags.copy(),
         np.zeros((0, remembered)),
         np.zeros_like(chunks),
+        np.zeros_like(chunks[1:]),
     )
 
 

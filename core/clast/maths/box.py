@@ -78,6 +78,12 @@ class Box(NamedTuple):
         """Return ways from one particle to another, (..., 3) in m, as they are to the nearest image of the other."""
         return np.asarray(way - self.span * np.rint(way * self.per_span))
 
+    def along(self, way: Floats, axis: int) -> Floats:
+        """Return such ways along one axis, (...) in m."""
+        return (
+            way if not self.periodic[axis] else np.asarray(way - self.span[axis] * np.rint(way * self.per_span[axis]))
+        )
+
     def beside(self, first: Places, second: Places) -> Floats:
         """Return the images of the second positions, (..., 3) in m, that are nearest to the first ones."""
         return np.asarray(second - self.span * np.rint((second - first) * self.per_span))

@@ -151,7 +151,7 @@ def identity(simulation: Simulation) -> dict[str, Any]:
         "above": simulation.keeper.above,
         "balance": simulation.soundness.energy.balance,
         "removed": simulation.removed,
-        "rebuilds": simulation.rebuilds,
+        "lists": [simulation.lists.made, simulation.lists.mended, simulation.lists.spent],
     }
 
 
@@ -227,7 +227,7 @@ def _restore(simulation: Simulation, arrays: Mapping[str, NDArray[Any]], about: 
     simulation.soundness.energy.balance = Balance(*about["balance"])
     simulation.follow_timeline()
     simulation.removed = int(about["removed"])
-    simulation.rebuilds = int(about["rebuilds"])
+    simulation.lists.made, simulation.lists.mended, simulation.lists.spent = about["lists"]
 
 
 def _settle(path: Path) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from clast.config.beside import WallChoice
 from clast.config.scene import SceneConfig
 from clast.engine.kernels.layout import MOST_SHRUNK
-from clast.engine.neighbours import LEAST_SKIN
+from clast.engine.skins import LEAST_SKIN
 from clast.errors import ConfigError
 from clast.maths.box import Box
 from clast.maths.vec3 import ZERO, Vec

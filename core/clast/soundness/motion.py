@@ -6,12 +6,15 @@ import numpy as np
 
 from clast.engine.blueprint import Blueprint
 from clast.engine.kernels.layout import INTACT, PER_SPAN, RADIUS, V, W, X
-from clast.engine.state import World
+from clast.engine.state import Integers, World
 from clast.engine.tables import box_of, slot_view
 from clast.scene.scene import Scene
 from clast.soundness.near import Nearness
 from clast.soundness.suspects import suspects
 
+Some = Integers | slice
+"""Which particles are looked at."""
+ALL = slice(None)
 MOST_WAY = 0.5
 """Longest way of a particle in one step, as a share of the smallest radius."""
 MOST_TURN = 0.5
@@ -22,10 +25,10 @@ DEEPEST = 1.0
 """Largest overlap, as a share of the smaller radius: beyond it a centre lies inside the other body."""
 
 
-def lost(world: World, scene: Scene) -> str | None:
+def lost(world: World, scene: Scene, some: Some = ALL) -> str | None:
     """Return which particle has no position or velocity any more, and which laws may have caused it."""
     particles = world.particles
-    if np.isfinite(particles.pose).all() and np.isfinite(particles.twist).all():
+    if np.isfinite(particles.pose[some]).all() and np.isfinite(particles.twist[some]).all():
         return None
     numbers = np.isfinite(particles.pose).all(axis=1) & np.isfinite(particles.twist).all(axis=1)
     missing = ~numbers & (particles.present != 0)
@@ -34,21 +37,22 @@ def lost(world: World, scene: Scene) -> str | None:
     return f"particle {np.argmax(missing)} is nowhere: {suspects(world, scene, missing)}"
 
 
-def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float) -> str | None:
+def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float, some: Some = ALL) -> str | None:
     """Return which particle one step of ``dt`` seconds moves or turns too far."""
     most_way, most_turn = MOST_WAY * scene.radius.min() / dt, MOST_TURN / dt
-    fastest = np.abs(world.particles.twist)
-    if fastest[:, V : V + 4].max() <= most_way and fastest[:, W : W + 4].max() <= most_turn:
+    fastest = np.abs(world.particles.twist[some])
+    way, turn = (fastest[:, k : k + 4].max(initial=0.0) for k in (V, W))
+    if way <= most_way and turn <= most_turn:
         return None
     twist = np.where(world.particles.present[:, None] != 0, world.particles.twist, 0.0)
-    way = np.abs(twist[:, V : V + 3]).max(axis=1) * dt / scene.radius.min()
-    k = int(np.argmax(way))
-    if way[k] > MOST_WAY:
-        return f"particle {k} moves by {way[k]:.2g} times the smallest radius in one step"
-    turn = np.abs(twist[:, W : W + 3]).max(axis=1) * dt
-    k = int(np.argmax(turn))
-    if plan.spin and turn[k] > MOST_TURN:
-        return f"particle {k} turns by {turn[k]:.2g} rad in one step"
+    ways = np.abs(twist[:, V : V + 3]).max(axis=1) * dt / scene.radius.min()
+    k = int(np.argmax(ways))
+    if ways[k] > MOST_WAY:
+        return f"particle {k} moves by {ways[k]:.2g} times the smallest radius in one step"
+    turns = np.abs(twist[:, W : W + 3]).max(axis=1) * dt
+    k = int(np.argmax(turns))
+    if plan.spin and turns[k] > MOST_TURN:
+        return f"particle {k} turns by {turns[k]:.2g} rad in one step"
     return None
 
 

@@ -8,7 +8,7 @@ from clast.scene.scene import Scene
 from clast.soundness.crowded import crowded
 from clast.soundness.energy import EnergyWatch
 from clast.soundness.impacts import ImpactsAhead
-from clast.soundness.motion import lost, passed_through, round_the_other_way, too_fast
+from clast.soundness.motion import ALL, Some, lost, passed_through, round_the_other_way, too_fast
 from clast.soundness.near import Gaps, Nearness
 
 
@@ -37,12 +37,19 @@ class Soundness:
 
     def complaint(self, world: World, dt: float) -> str | None:
         """Return what cannot be followed with steps of ``dt`` seconds; None if all can."""
-        found = self.motion_complaint(world, dt) or crowded(world, self.scene)
-        if found is not None:
+        return self.motion_complaint(world, dt) or self.contact_complaint(world, dt)
+
+    def motion_complaint(self, world: World, dt: float) -> str | None:
+        """Return the same of single particles and bonds, for which neighbour lists need not be fresh."""
+        return self.complaint_of(ALL, world, dt) or round_the_other_way(world)
+
+    def complaint_of(self, some: Some, world: World, dt: float) -> str | None:
+        """Return the same of some particles alone."""
+        return lost(world, self.scene, some) or too_fast(world, self.scene, self.plan, dt, some)
+
+    def contact_complaint(self, world: World, dt: float) -> str | None:
+        """Return the same of what is on the neighbour lists."""
+        if (found := crowded(world, self.scene)) is not None:
             return found
         near = Nearness(world, self.gaps)
         return passed_through(near, world, self.scene) or self.impacts.complaint(near, world, dt)
-
-    def motion_complaint(self, world: World, dt: float) -> str | None:
-        """Return the same of single particles, for which neighbour lists need not be fresh."""
-        return lost(world, self.scene) or too_fast(world, self.scene, self.plan, dt) or round_the_other_way(world)

@@ -196,7 +196,7 @@ def sweep_contacts(
     Whether a pair touches is not to be guessed, so it is counted, not branched on.
     """
     count = 0
-    for k in range(pairs.begin[chunk], pairs.begin[chunk + 1]):
+    for k in range(pairs.begin[chunk], pairs.end[chunk]):
         if CHUNKED:
             ask_for_pair(pairs, min(k + AHEAD, len(pairs.first) - 1), particles)
         touches = 1 if meet(particles, pairs, k, numbers, scratch, count) else 0
