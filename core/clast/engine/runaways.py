@@ -7,6 +7,8 @@ they did: every pair that can come to touch while each goes the way it has from 
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from clast.engine.chunks import home_of
@@ -17,6 +19,12 @@ from clast.engine.state import Bytes, Floats, Indices, Integers, Pairs, Particle
 from clast.engine.tables import box_of
 from clast.engine.wall_frames import arms
 from clast.maths.box import Box
+
+ROUNDING = 1e-9
+"""Share by which blocks are looked into that are a little too far away: their middles are rounded."""
+
+BLOCK = 64
+"""Particles of a block, which are looked at together or not at all."""
 
 BASE, EACH = 1000, 1 / 300
 """What it costs to mend lists, in particles whose neighbours could be searched instead: in any case, and for each
@@ -46,6 +54,33 @@ def cost(away: Integers, particles: Particles, stale: Bytes) -> float:
     return BASE / count + EACH * len(away) if fits else np.inf
 
 
+class Extents(NamedTuple):
+    """Boxes around the places from which particles go their way, (b, 3) in m, for each block of successive ones.
+
+    Those of a grain have successive numbers, so most blocks are small.
+    """
+
+    lower: Floats
+    upper: Floats
+
+    def near(self, place: Floats, far: float, box: Box) -> Integers:
+        """Return the particles of all blocks that have something within a distance of a place."""
+        away = np.abs(box.nearest(0.5 * (self.lower + self.upper) - place)) - 0.5 * (self.upper - self.lower)
+        blocks = np.flatnonzero((away < far * (1.0 + ROUNDING)).all(axis=1))
+        return np.asarray(blocks[:, None] * BLOCK + np.arange(BLOCK)).ravel()
+
+    def widen(self, particles: Particles, away: Integers) -> None:
+        """Make room for the places from which some particles go their way now."""
+        np.minimum.at(self.lower, away // BLOCK, particles.reference[away, :3])
+        np.maximum.at(self.upper, away // BLOCK, particles.reference[away, :3])
+
+
+def extents(particles: Particles) -> Extents:
+    """Return the boxes of all blocks."""
+    places, begin = particles.reference[:, :3], np.arange(0, len(particles.reference), BLOCK)
+    return Extents(np.minimum.reduceat(places, begin), np.maximum.reduceat(places, begin))
+
+
 def rows_of(particles: Particles, some: Integers) -> Particles:
     """Return the tables of some particles that searches read."""
     names = ("pose", "twist", "body", "reference", "present")
@@ -62,21 +97,21 @@ def look_again(particles: Particles, walls: Walls, away: Integers, slack: Floats
         walls.reference[:, ARM] = np.maximum(walls.reference[:, ARM], farthest)
 
 
-def pairs_of(particles: Particles, away: Integers, most: float, more: float, box: Box) -> Integers:
+def pairs_of(particles: Particles, where: Extents, away: Integers, most: float, more: float, box: Box) -> Integers:
     """Return the pairs that some particles can come to make while each goes its way, (p, 2) with i < j, rising.
 
     Two are near if they can come closer than ``more`` in m beyond touch; no particle reaches farther than ``most``.
     Those that nothing could move are left out.
     """
-    place, found = particles.reference[:, :3], []
+    found = []
     for i in away.tolist():
-        reach = particles.pose[i, RADIUS] + np.sqrt(particles.reference[i, 3]) + more
-        near = np.flatnonzero(np.abs(box.along(place[:, 0] - place[i, 0], 0)) < reach + most)
-        near = near[(near != i) & (particles.present[near] != 0)]
-        way = box.nearest(place[near] - place[i])
+        place, reach = particles.reference[i, :3], particles.pose[i, RADIUS] + np.sqrt(particles.reference[i, 3]) + more
+        near = where.near(place, reach + most, box)
+        near = near[(near != i) & (near < len(particles.pose))]
+        way = box.nearest(particles.reference[near, :3] - place)
         far = reach + particles.pose[near, RADIUS] + np.sqrt(particles.reference[near, 3])
-        meets = np.einsum("ij,ij->i", way, way) < far * far
-        meets &= (particles.body[near, INVERSE_MASS] > 0.0) | (particles.body[i, INVERSE_MASS] > 0.0)
+        meets = (np.einsum("ij,ij->i", way, way) < far * far) & (particles.present[near] != 0)
+        meets &= np.maximum(particles.body[near, INVERSE_MASS], particles.body[i, INVERSE_MASS]) > 0.0
         near = near[meets]
         found.append(np.column_stack([np.minimum(near, i), np.maximum(near, i)]))
     return np.asarray(np.unique(np.concatenate(found), axis=0))

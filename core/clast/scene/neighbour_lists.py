@@ -9,7 +9,7 @@ from clast.engine.blueprint import Blueprint
 from clast.engine.histories import pair_rows
 from clast.engine.neighbours import NearWalls, find_pairs, find_wall_pairs, remember_positions, wall_rows
 from clast.engine.skins import choose_skin, choose_slack
-from clast.engine.state import Integers, World
+from clast.engine.state import Integers, Particles, World
 from clast.engine.tables import box_now
 from clast.scene.plan import largest_reach
 from clast.scene.repeats import most_skin, search_slack
@@ -44,6 +44,7 @@ class NeighbourLists:
         self.at_walls = plan.contacts is not None and bool(plan.walls)
         self.made = self.mended = 0
         self.spent = 0.0
+        self.extents: runaways.Extents | None = None
 
     def made_anew(self, world: World, dt: float) -> World:
         """Return the world with lists for the present positions and velocities, and steps of ``dt`` seconds."""
@@ -61,6 +62,7 @@ class NeighbourLists:
         remember_positions(particles, walls, slack)
         self.made += 1
         self.spent = 0.0
+        self.extents = None
         return world
 
     def discard(self) -> None:
@@ -90,7 +92,7 @@ class NeighbourLists:
         fresh = world
         if self.between_particles:
             most = float(self.scene.radius.max()) + self.skin.most
-            found = runaways.pairs_of(particles, away, most, self.reach, box)
+            found = runaways.pairs_of(particles, self._extents(particles, away), away, most, self.reach, box)
             gone = runaways.rows_with(world.pairs, world.chunks, away)
             fresh = fresh._replace(pairs=pair_rows(found, world.chunks, world.bonds, world.pairs, gone))
             if not runaways.exchange(world.pairs, gone, fresh.pairs):
@@ -102,3 +104,10 @@ class NeighbourLists:
             near = runaways.exchanged_at_walls(world.wall_pairs, away, contacts)
             world = world._replace(wall_pairs=near)
         return world, fresh
+
+    def _extents(self, particles: Particles, away: Integers) -> runaways.Extents:
+        """Return where all particles go from, those that ran away among them."""
+        if self.extents is None:
+            self.extents = runaways.extents(particles)
+        self.extents.widen(particles, away)
+        return self.extents
