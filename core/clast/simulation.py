@@ -214,7 +214,9 @@ class Simulation:
         step, time, dt = self.timeline.spans[-1]
         before = self.timeline.spans[max(len(self.timeline.spans) - 2, 0)].dt
         late = self.plan.integrator.after_forces * (before - dt)
-        numbers = self.world.numbers._replace(dt=dt, first_step=step, first_time=time, late=late)
+        numbers = self.world.numbers._replace(
+            dt=dt, first_step=step, first_time=time, late=late, early=before - dt - late
+        )
         self.world = self.world._replace(numbers=numbers)
         self.last_step = self.gauge.last_step(dt, step, time)
 

@@ -66,6 +66,7 @@ _NAMES: dict[Dimension, tuple[str, str]] = {
     (-1, 1, -2, 0): ("a stress", "5.6 MPa"),
     (1, 1, -2, 0): ("a force", "2 N"),
     (2, 1, -2, 0): ("an energy or moment", "5 N mm"),
+    (2, 1, 0, 0): ("a moment of inertia", "4 g mm2"),
     (0, 1, -2, 0): ("a stiffness", "5 N/mm"),
     (0, 0, -1, 0): ("a rate", "5 1/s"),
     (-1, 1, -1, 0): ("a viscosity", "1 mPa s"),

@@ -146,7 +146,12 @@ class Blueprint:
     @property
     def walls_turn(self) -> bool:
         """Whether some wall turns."""
-        return any(motion.spin is not None for motion in self.motions)
+        return any(motion.turns for motion in self.motions)
+
+    @property
+    def turned_by_moments(self) -> bool:
+        """Whether some wall turns as the moment on it wants."""
+        return any(motion.answer_spin is not None for motion in self.motions)
 
     @property
     def orientation(self) -> bool:
@@ -222,7 +227,10 @@ class Blueprint:
         found += [
             function
             for motion in self.motions
-            for function in (motion.velocity, motion.way, motion.answer, motion.start, motion.spin)
+            for function in (motion.velocity, motion.way, motion.answer, motion.start)
+        ]
+        found += [
+            function for motion in self.motions for function in (motion.spin, motion.answer_spin, motion.start_spin)
         ]
         found += [function for force in self.body_forces for function in (force.acceleration, force.load)]
         found += [self.damping.braking, self.damping.steering] if self.damping is not None else []

@@ -13,6 +13,8 @@ COURSE = [
     "time = now - walls.begun[w]",
 ]
 
+MOVES = ("velocity", "way", "answer", "start", "spin", "answer_spin", "start_spin")
+
 
 def walls_text(plan: Blueprint) -> str:
     """Return what binds the shapes and motions of a scene's walls."""
@@ -30,9 +32,9 @@ def walls_text(plan: Blueprint) -> str:
 
 
 def _motions(plan: Blueprint) -> list[str]:
-    lines, begin, known, answers, spins = [], [], [], [], []
+    lines, begin, known, answers = [], [], [], []
     for k, motion in enumerate(plan.motions):
-        lines += [bind(f"{name}_{k}", getattr(motion, name)) for name in ("velocity", "way", "answer", "start", "spin")]
+        lines += [bind(f"{name}_{k}", getattr(motion, name)) for name in MOVES]
         lines.append(bind_record(f"Course{k}", motion.Course))
         course = construct_long(motion.Course, f"Course{k}")
         start = f"start_{k}({course})" if motion.start else "ZERO"
@@ -40,15 +42,30 @@ def _motions(plan: Blueprint) -> list[str]:
         mean = f"scale(1.0 / span, way_{k}({course}, time - 0.5 * span, time + 0.5 * span))"
         known.append(mean if motion.way else begin[k])
         answers.append(f"answer_{k}({course}, time, pressed)" if motion.answer else known[k])
-        spins.append(f"spin_{k}({course}, time)" if motion.spin else "ZERO")
-    for branches in (begin, known, answers, spins):
+    for branches in (begin, known, answers):
         branches.append("ZERO")  # walls without a motion stand still
     return [
         *lines,
         dispatch("wall_start", "walls, w, now", begin, "ZERO", COURSE),
         dispatch("wall_velocity", "walls, w, now, span", known, "ZERO", COURSE),
-        dispatch("wall_spin", "walls, w, now", spins, "ZERO", COURSE),
         dispatch("wall_answer", "walls, w, now, pressed", answers, "ZERO", [*COURSE, "span = pressed.span"]),
+        *_spins(plan),
+    ]
+
+
+def _spins(plan: Blueprint) -> list[str]:
+    begin, known, answers = [], [], []
+    for k, motion in enumerate(plan.motions):
+        course = construct_long(motion.Course, f"Course{k}")
+        known.append(f"spin_{k}({course}, time)" if motion.spin else "ZERO")
+        begin.append(f"start_spin_{k}({course})" if motion.start_spin else known[k])
+        answers.append(f"answer_spin_{k}({course}, time, turned)" if motion.answer_spin else known[k])
+    for branches in (begin, known, answers):
+        branches.append("ZERO")
+    return [
+        dispatch("wall_start_spin", "walls, w, now", begin, "ZERO", COURSE),
+        dispatch("wall_spin", "walls, w, now", known, "ZERO", COURSE),
+        dispatch("wall_answer_spin", "walls, w, now, turned", answers, "ZERO", COURSE),
     ]
 
 

@@ -91,6 +91,7 @@ def _flags(plan: Blueprint) -> str:
         "MANIFOLDS": plan.manifolds,
         "ANSWERING": plan.answering,
         "WALLS_TURN": plan.walls_turn,
+        "TURNED_BY_MOMENTS": plan.turned_by_moments,
         "BODY_FORCES": any(force.acceleration is not None for force in plan.body_forces),
         "BODY_LOADS": plan.body_loads,
         "BRAKES": plan.damping is not None,

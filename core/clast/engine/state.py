@@ -188,6 +188,7 @@ class Numbers(NamedTuple):
     first_time: float  # its time in s
     mass: float  # of all particles that forces can move, in kg
     late: float  # what the time since the forces before is more than usual in that step, in s
+    early: float  # and what it is less than walls were told, that keep their velocities for it
 
 
 class Team(NamedTuple):

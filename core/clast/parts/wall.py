@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clast.errors import PluginError
+from clast.maths.rotation import Quat
 from clast.maths.vec3 import Vec
 from clast.parts.params import Params
 
@@ -45,12 +46,36 @@ class Pressed(NamedTuple):
     span : float
         Time to the next force evaluation in s: so long the wall keeps the velocity that the motion answers with.
     since : float
-        Time since the force evaluation before in s, for which the wall kept ``velocity``; 0 at the start.
+        Time since the force evaluation before in s, for which the wall kept ``velocity``; 0 at the start. It is twice
+        the time since the middle of the span that was foreseen there: where the step was just changed, a little more or
+        less.
     """
 
     force: Vec
     mass: float
     velocity: Vec
+    span: float
+    since: float = 0.0
+
+
+class Turned(NamedTuple):
+    """How a wall turns and what turns it, for motions that answer to it.
+
+    Attributes
+    ----------
+    moment : vector
+        Moment of the particles on the wall about its pivot, at the last force evaluation, in N m.
+    orientation : quaternion
+        How the wall is turned there, w first; it begins with (1, 0, 0, 0).
+    spin : vector
+        Angular velocity with which it came there in rad/s.
+    span, since : float
+        As in :class:`Pressed`.
+    """
+
+    moment: Vec
+    orientation: Quat
+    spin: Vec
     span: float
     since: float = 0.0
 
@@ -151,18 +176,24 @@ class Motion:
     spin : (course, time) -> vector, optional
         Angular velocity of the wall in rad/s, about its pivot; from one force evaluation to the next it keeps that of
         the middle.
+    answer_spin : (course, time, turned) -> vector, optional
+        Angular velocity in rad/s of a wall that was :class:`Turned`, in the place of ``spin``; ``time`` as in
+        ``answer``, which goes with it.
+    start_spin : (course) -> vector, optional
+        Angular velocity in rad/s of such a wall, before any force is known.
     pivot : (params) -> vector, optional
         Point in m about which it turns, as it stands at the start; it moves with the wall's velocity.
     lasts : (course) -> float, optional
         Time in s up to which it tells how the wall moves; scenes that end later are refused.
-    step_share : (course, mass) -> float, optional
+    step_share : (course, mass, arm) -> float, optional
         Share of the stable step at walls that stand still which is safe with this motion; ``mass`` in kg is that of
-        all particles that forces can move.
+        all particles that forces can move, ``arm`` in m how far from the pivot they can touch the wall.
 
     Raises
     ------
     PluginError
-        If it has neither or both, a way and no velocity, or only one of spin and pivot.
+        If it has neither or both, a way and no velocity, a pivot and nothing that turns about it or the other way
+        round, or a spin that answers and no velocity that does.
     """
 
     summary: str
@@ -172,19 +203,29 @@ class Motion:
     velocity: Callable[..., Vec] | None = None
     answer: Callable[..., Vec] | None = None
     start: Callable[[Any], Vec] | None = None
-    step_share: Callable[[Any, float], float] | None = None
+    step_share: Callable[[Any, float, float], float] | None = None
     way: Callable[..., Vec] | None = None
     lasts: Callable[[Any], float] | None = None
     spin: Callable[[Any, float], Vec] | None = None
     pivot: Callable[[Any], Vec] | None = None
+    answer_spin: Callable[..., Vec] | None = None
+    start_spin: Callable[[Any], Vec] | None = None
+
+    @property
+    def turns(self) -> bool:
+        """Whether it turns the wall."""
+        return self.spin is not None or self.answer_spin is not None
 
     def __post_init__(self) -> None:
         if (self.velocity is None) == (self.answer is None):
             raise PluginError(f"motion {self.summary!r} needs either 'velocity' or 'answer'")
         if self.way is not None and self.velocity is None:
             raise PluginError(f"motion {self.summary!r} has a 'way', and no 'velocity' to go with it")
-        if (self.spin is None) != (self.pivot is None):
-            raise PluginError(f"motion {self.summary!r} needs both 'spin' and 'pivot', or neither")
+        if self.turns != (self.pivot is not None) or (self.spin is not None and self.answer_spin is not None):
+            text = "needs both 'spin' or 'answer_spin' and 'pivot', or neither"
+            raise PluginError(f"motion {self.summary!r} {text}")
+        if self.answer is None and self.answer_spin is not None:
+            raise PluginError(f"motion {self.summary!r} has an 'answer_spin', and no 'answer' to go with it")
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.config.beside import WallChoice
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.engine.blueprint import Blueprint, BondPlan, ContactPlan
@@ -18,6 +19,7 @@ from clast.parts.bond_model import Stiffness
 from clast.parts.contact_law import Features, MaterialPair
 from clast.scene.scatter import DASHPOTS, STIFFNESS, Form, form_of_constants, of_each_bond, scatter_entries
 from clast.scene.scene import Scene, strain_rates
+from clast.scene.turning import arm
 
 
 def blueprint(scene: Scene) -> Blueprint:
@@ -90,13 +92,19 @@ def step_share(scene: Scene) -> float:
     damping, mass = scene.config.damping, float(scene.mass[~scene.prescribed].sum())
     share = 1.0 if damping is None else float(damping.part.step_share(damping.params))
     for wall in scene.config.walls.values():
-        share *= min([1.0, *(_share_left(stage.motion, mass) for stage in wall.stages)])
+        share *= min([1.0, *(_share_left(stage.motion, mass, arm(wall)) for stage in wall.stages)])
     return share
 
 
-def _share_left(motion: Chosen, mass: float) -> float:
+def giving_way(wall: WallChoice) -> float:
+    """Return how much a wall gives way to a push, wherever that is, as the inverse of a mass in 1/kg; 0 at rest."""
+    share = min([1.0, *(_share_left(stage.motion, 1.0, arm(wall)) for stage in wall.stages)])
+    return 1.0 / share**2 - 1.0  # of the step with a particle of 1 kg
+
+
+def _share_left(motion: Chosen, mass: float, reach: float) -> float:
     part = motion.part
-    return 1.0 if part.step_share is None else float(part.step_share(part.course(motion.params), mass))
+    return 1.0 if part.step_share is None else float(part.step_share(part.course(motion.params), mass, reach))
 
 
 def distinct(chosen: Iterable[Chosen]) -> tuple[Any, ...]:

@@ -15,6 +15,7 @@ from clast.scene.plan import material_pairs
 from clast.scene.repeats import check_repeats
 from clast.scene.scatter import multiplied, refuse_beyond_bounds, scatter_entries
 from clast.scene.scene import Scene
+from clast.scene.turning import refuse_endless_bodies
 
 COARSEST = 1e-6
 """Largest distance of two neighbouring floating-point numbers at a particle, as a share of its radius or its bonds'."""
@@ -38,6 +39,7 @@ def check_start(scene: Scene) -> None:
     check_tracks(scene.config, len(scene.radius), len(scene.ends))
     _refuse_outsiders(scene)
     check_repeats(scene)
+    refuse_endless_bodies(scene.config)
     _refuse_coarse_positions(scene)
     _refuse_short_bonds(scene)
     if scene.config.contacts is not None:

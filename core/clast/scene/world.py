@@ -109,6 +109,7 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, particles: Particl
         first_time=0.0,
         mass=float(scene.mass[~scene.prescribed].sum()),
         late=0.0,
+        early=0.0,
     )
 
 

@@ -13,6 +13,7 @@ from clast.engine.images import growth, velocities_between
 from clast.engine.kernels.layout import INVERSE_MASS, MATERIAL, RADIUS, V, X
 from clast.engine.state import Floats, World
 from clast.engine.wall_frames import fastest_surface, surface_velocities
+from clast.scene.plan import giving_way
 from clast.scene.scene import Scene
 from clast.soundness.near import Energies, Nearness
 from clast.stability.impact import impact_duration
@@ -46,6 +47,7 @@ class ImpactsAhead:
     def __init__(self, scene: Scene, plan: Blueprint) -> None:
         self.scene = scene
         self.energies = Energies(scene, plan)
+        self.giving_way = [giving_way(wall) for wall in scene.config.walls.values()]
         self.harmless = 0.0
 
     def complaint(self, near: Nearness, world: World, dt: float) -> str | None:
@@ -77,7 +79,7 @@ class ImpactsAhead:
     def _shortest(self, speed: float) -> Iterator[Meeting]:
         """Yield the meetings of the smallest particles of every two materials, and of one and a wall."""
         scene, materials = self.scene, list(self.scene.config.materials)
-        walls = {materials.index(wall.material) for wall in scene.config.walls.values()}
+        walls = [materials.index(wall.material) for wall in scene.config.walls.values()]
         present = set(scene.material.tolist())
         lightest = {m: np.argmin(np.where(scene.material == m, scene.mass, np.inf)) for m in present}
         for i, j in self.energies.constants:
@@ -88,8 +90,9 @@ class ImpactsAhead:
                 other = lightest[j]
                 together = per_mass + 1.0 / float(scene.mass[other])
                 yield Meeting("", (i, j), (r, float(scene.radius[other])), together, speed)
-            if j in walls:
-                yield Meeting("", (i, j), (r, np.inf), per_mass, speed)
+            for wall, given in zip(walls, self.giving_way, strict=True):
+                if wall == j:
+                    yield Meeting("", (i, j), (r, np.inf), per_mass + given, speed)
 
     def _meetings(self, near: Nearness, world: World) -> Iterator[Meeting]:
         """Yield the near pair whose impact would be the shortest, and everything near walls."""
@@ -114,4 +117,5 @@ class ImpactsAhead:
             who = f"particle {one} and the wall '{list(self.scene.config.walls)[wall]}'"
             materials = (int(body[one, MATERIAL]), int(world.walls.material[wall]))
             radii = (float(radius[one]), np.inf)
-            yield Meeting(who, materials, radii, float(body[one, INVERSE_MASS]), float(speed[p]))
+            per_mass = float(body[one, INVERSE_MASS]) + self.giving_way[wall]
+            yield Meeting(who, materials, radii, per_mass, float(speed[p]))

@@ -18,7 +18,7 @@ from clast.engine.blueprint import Blueprint
 from clast.engine.records import build, width
 from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import Touch
-from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients, material_pairs
+from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients, giving_way, material_pairs
 from clast.scene.scene import Scene
 from clast.stability.impact import impact_duration
 
@@ -138,15 +138,15 @@ def contact_limit(scene: Scene) -> float:
     rule = scene.config.time.step
     speed = rule.impact_speed if isinstance(rule, StepRule) else IMPACT_SPEED
     history = None if law.History is None else build(law.History, [0.0] * width(law.History))
-    walls = {wall.material for wall in scene.config.walls.values()}
+    names, walls = list(scene.config.materials), scene.config.walls.values()
     shortest = np.inf
     for i, j, pair in material_pairs(scene):
         constants = law.constants(chosen.params, pair)
         partners = [smallest(scene, j)] if j in scene.material and len(scene.radius) > 1 else []
-        partners += [(np.inf, np.inf)] if list(scene.config.materials)[j] in walls else []
-        r, m = smallest(scene, i)
-        for r_j, m_j in partners:
-            radius, mass = 1.0 / (1.0 / r + 1.0 / r_j), 1.0 / (1.0 / m + 1.0 / m_j)
+        partners += [(np.inf, giving_way(wall)) for wall in walls if wall.material == names[j]]
+        r, per_mass = smallest(scene, i)
+        for r_j, per_mass_j in partners:
+            radius, mass = 1.0 / (1.0 / r + 1.0 / r_j), 1.0 / (per_mass + per_mass_j)
             wall = r_j if r_j < np.inf else 0.0
             touch = Touch(0.0, (0.0, 0.0, 1.0), ZERO, ZERO, ZERO, radius, r, wall, 1.0 / mass, 1.0)
 
@@ -158,10 +158,10 @@ def contact_limit(scene: Scene) -> float:
 
 
 def smallest(scene: Scene, material: int) -> tuple[float, float]:
-    """Return radius and mass of the lightest particle of a material, in m and kg."""
+    """Return radius and inverse mass of the lightest particle of a material, in m and 1/kg."""
     mine = np.nonzero(scene.material == material)[0]
     k = mine[np.argmin(scene.mass[mine])]
-    return float(scene.radius[k]), float(scene.mass[k])
+    return float(scene.radius[k]), 1.0 / float(scene.mass[k])
 
 
 def pair_limit(scene: Scene) -> float:

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from clast.maths.rotation import IDENTITY, turn
 from clast.maths.vec3 import Vec
-from clast.parts.wall import Motion, Pressed
+from clast.parts.wall import Motion, Pressed, Turned
 from clast.testing.bits import same_bits
 from clast.testing.claim import Claim, claim, must
 from clast.testing.draws import numbers, vectors
@@ -45,21 +46,30 @@ def _of_ways(motion: Motion, course: Any) -> list[Claim]:
 
 
 def _of_spins(motion: Motion, params: Any, course: Any) -> list[Claim]:
-    if motion.spin is None:
+    if not motion.turns:
         return []
     return [
         claim(
             "the angular velocity is a number at every time, about a pivot that is a place",
-            lambda time: _turns(motion, params, course, time),
+            lambda time, moment, spin: _turns(motion, params, course, time, moment, spin),
             numbers(0.0, LONG),
+            vectors(100.0),
+            vectors(1.0),
         )
     ]
 
 
-def _turns(motion: Motion, params: Any, course: Any, time: float) -> None:
-    assert motion.spin is not None
+def spin(motion: Motion, course: Any, time: float, moment: Vec, before: Vec) -> Vec:
+    """Return the angular velocity of a wall in rad/s that a moment turns and that has been turning."""
+    if motion.spin is not None:
+        return motion.spin(course, time)
+    assert motion.answer_spin is not None
+    return motion.answer_spin(course, time, Turned(moment, IDENTITY, before, SPAN, SPAN))
+
+
+def _turns(motion: Motion, params: Any, course: Any, time: float, moment: Vec, before: Vec) -> None:
     assert motion.pivot is not None
-    told, place = motion.spin(course, time), motion.pivot(params)
+    told, place = spin(motion, course, time, moment, before), motion.pivot(params)
     good = all(len(each) == 3 and all(map(math.isfinite, each)) for each in (told, place))
     must(good, lambda: f"at {time:g} s it turns with {told} rad/s about {place} m")
 
@@ -90,7 +100,13 @@ def _sound(motion: Motion, course: Any, time: float, force: Vec, before: Vec) ->
 
 
 def _compiled_alike(motion: Motion, course: Any) -> None:
-    ahead, answer, way, spin = motion.velocity, motion.answer, motion.way, motion.spin
+    ahead, answer, way, known_spin, answer_spin = (
+        motion.velocity,
+        motion.answer,
+        motion.way,
+        motion.spin,
+        motion.answer_spin,
+    )
 
     def known(times: Any, forces: Any, course: Any, out: Any) -> None:
         for k in range(len(times)):
@@ -108,9 +124,17 @@ def _compiled_alike(motion: Motion, course: Any) -> None:
 
     def turning(times: Any, forces: Any, course: Any, out: Any) -> None:
         for k in range(len(times)):
-            out[k, 0], out[k, 1], out[k, 2] = spin(course, times[k])  # type: ignore[misc]
+            out[k, 0], out[k, 1], out[k, 2] = known_spin(course, times[k])  # type: ignore[misc]
+
+    def turned(times: Any, forces: Any, course: Any, out: Any) -> None:
+        for k in range(len(times)):
+            f = forces[k]
+            q = turn(IDENTITY, (f[5], f[0], f[1]), 0.1)
+            told = Turned((f[0], f[1], f[2]), q, (f[3], f[4], f[5]), SPAN, SPAN)
+            out[k, 0], out[k, 1], out[k, 2] = answer_spin(course, times[k], told)  # type: ignore[misc]
 
     draw = np.random.default_rng(13)
-    for sweep, function in ((known, ahead), (answering, answer), (going, way), (turning, spin)):
+    sweeps = (known, ahead), (answering, answer), (going, way), (turning, known_spin), (turned, answer_spin)
+    for sweep, function in sweeps:
         if function is not None:
             same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)

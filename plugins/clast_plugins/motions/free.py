@@ -16,7 +16,7 @@ from clast.plugins.registry import Registry
 
 
 class Free(Params):
-    r"""A rigid body that particles push, gravity pulls and a force drives; it moves without turning.
+    r"""A rigid body that particles push, gravity pulls and a force drives; it moves without turning: a lid, a piston.
 
     Equation
     --------
@@ -30,11 +30,11 @@ class Free(Params):
 
     Limits
     ------
-    Translation only. Other walls do not touch it. Between two force evaluations it keeps one velocity, as particles do:
-    second order, and momentum is exchanged with particles without loss. Dashpots of contacts take every wall as
-    endlessly heavy, so light particles calm a heavy lid but slowly. The stable step is that with walls at rest, times
-    1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The ledger counts the
-    wall as outside: its own energy is not in it.
+    Translation only; ``rigid_body`` turns. Other walls do not touch it. Between two force evaluations it keeps one
+    velocity, as particles do: second order, and momentum is exchanged with particles without loss. Dashpots of contacts
+    take every wall as endlessly heavy, so light particles calm a heavy lid but slowly. The stable step is that with
+    walls at rest, times 1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The
+    ledger counts the wall as outside: its own energy is not in it.
 
     Source
     ------
@@ -94,7 +94,7 @@ def answer(course: Course, time: float, pressed: Pressed) -> Vec:
     return add(pressed.velocity, scale(0.5 * (pressed.since + pressed.span), acceleration))
 
 
-def step_share(course: Course, mass: float) -> float:
+def step_share(course: Course, mass: float, arm: float) -> float:
     """Return the share of the stable step that is left when particles of a mass in kg touch a wall that gives way."""
     return 1.0 / sqrt(1.0 + mass / course.mass)
 

@@ -55,6 +55,16 @@ def time_since_forces(clock: Integers, numbers: Numbers) -> float:
 
 
 @inlined
+def since_walls_were_told(clock: Integers, numbers: Numbers, span: float) -> float:
+    """Return twice the time in s since walls had the velocity that they were given, in the middle of a span.
+
+    That is the time since the forces before, but where the step was just changed and the span was not what they were
+    told.
+    """
+    return span - numbers.early if clock[STEP] == numbers.first_step and clock[STAGE] == 0 else span
+
+
+@inlined
 def until_next_forces(clock: Integers) -> tuple[float, float]:
     """Return when forces are evaluated now, and the time to their next evaluation, as fractions of the step."""
     if clock[PRIMED] == 0:
@@ -144,7 +154,8 @@ def move_from_forces(
         at, span_on = until_next_forces(world.clock)
         if span_on > 0.0:
             middle = time + (at + 0.5 * span_on) * numbers.dt
-            steer_walls(world.walls, numbers.mass, middle, span_on * numbers.dt, span)
+            since = since_walls_were_told(world.clock, numbers, span)
+            steer_walls(world.walls, numbers.mass, middle, span_on * numbers.dt, since)
         move_walls(world.walls, stage.drift_after * numbers.dt, numbers.wall_reach2)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from clast.engine.compiler import inlined
 from clast.engine.state import Walls
-from clast.maths.rotation import Matrix, matrix, rotate, rotate_back
+from clast.maths.rotation import Matrix, Quat, matrix, rotate, rotate_back
 from clast.maths.vec3 import ZERO, Vec, add, cross, dot, sub
 
 from .lanes import row
@@ -16,10 +16,16 @@ from .slots import WALLS_TURN
 
 
 @inlined
+def orientation(walls: Walls, w: int) -> Quat:
+    """Return how wall w is turned."""
+    pose = walls.pose
+    return (pose[w, WALL_Q], pose[w, WALL_Q + 1], pose[w, WALL_Q + 2], pose[w, WALL_Q + 3])
+
+
+@inlined
 def turned_by(walls: Walls, w: int) -> Matrix:
     """Return the matrix that takes directions in the frame of wall w into space."""
-    pose = walls.pose
-    return matrix((pose[w, WALL_Q], pose[w, WALL_Q + 1], pose[w, WALL_Q + 2], pose[w, WALL_Q + 3]))
+    return matrix(orientation(walls, w))
 
 
 @inlined

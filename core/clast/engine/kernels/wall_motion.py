@@ -7,23 +7,31 @@ from math import sqrt
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Walls
 from clast.maths.rotation import turn
-from clast.maths.vec3 import Vec, dot, sub
-from clast.parts.wall import Pressed
+from clast.maths.vec3 import ZERO, Vec, dot, sub
+from clast.parts.wall import Pressed, Turned
 
 from .lanes import row
 from .layout import ANGLE, ARM, WALL_Q, WALL_W, WALL_WORK
-from .slots import ANSWERING, WALLS_TURN, wall_answer, wall_spin, wall_start, wall_velocity
-from .wall_frames import power_on_wall, spin_of_wall
+from .slots import (
+    ANSWERING,
+    TURNED_BY_MOMENTS,
+    WALLS_TURN,
+    wall_answer,
+    wall_answer_spin,
+    wall_spin,
+    wall_start,
+    wall_start_spin,
+    wall_velocity,
+)
+from .wall_frames import orientation, power_on_wall, spin_of_wall
 
 
 @inlined
-def give_velocity(walls: Walls, w: int, velocity: Vec, time: float) -> None:
-    """Give wall w a velocity, and the angular velocity that it has at a time."""
+def give_velocity(walls: Walls, w: int, velocity: Vec, spin: Vec) -> None:
+    """Give wall w a velocity and, where walls turn, an angular velocity."""
     for c in range(3):
         walls.twist[w, c] = velocity[c]
-    if WALLS_TURN:
-        spin = wall_spin(walls, w, time)
-        for c in range(3):
+        if WALLS_TURN:
             walls.twist[w, WALL_W + c] = spin[c]
 
 
@@ -31,7 +39,8 @@ def give_velocity(walls: Walls, w: int, velocity: Vec, time: float) -> None:
 def start_walls(walls: Walls, time: float) -> None:
     """Give the walls the velocities they have before any force is known."""
     for w in range(len(walls.shape_kind)):
-        give_velocity(walls, w, wall_start(walls, w, time), time)
+        spin = wall_start_spin(walls, w, time) if WALLS_TURN else ZERO
+        give_velocity(walls, w, wall_start(walls, w, time), spin)
 
 
 @routine
@@ -42,11 +51,17 @@ def steer_walls(walls: Walls, mass: float, middle: float, span: float, since: fl
     all particles, ``since`` the time since the forces before.
     """
     for w in range(len(walls.shape_kind)):
+        spin = ZERO
+        if TURNED_BY_MOMENTS:
+            turned = Turned(row(walls.moment, w, 0), orientation(walls, w), spin_of_wall(walls, w), span, since)
+            spin = wall_answer_spin(walls, w, middle, turned)
+        elif WALLS_TURN:
+            spin = wall_spin(walls, w, middle)
         if ANSWERING:
             pressed = Pressed(row(walls.force, w, 0), mass, row(walls.twist, w, 0), span, since)
-            give_velocity(walls, w, wall_answer(walls, w, middle, pressed), middle)
+            give_velocity(walls, w, wall_answer(walls, w, middle, pressed), spin)
         else:
-            give_velocity(walls, w, wall_velocity(walls, w, middle, span), middle)
+            give_velocity(walls, w, wall_velocity(walls, w, middle, span), spin)
 
 
 @inlined
@@ -56,8 +71,7 @@ def carry_wall(walls: Walls, w: int, time: float) -> None:
     for c in range(3):
         pose[w, c] += time * walls.twist[w, c]
     if WALLS_TURN:
-        q = (pose[w, WALL_Q], pose[w, WALL_Q + 1], pose[w, WALL_Q + 2], pose[w, WALL_Q + 3])
-        q = turn(q, spin_of_wall(walls, w), time)
+        q = turn(orientation(walls, w), spin_of_wall(walls, w), time)
         for c in range(4):
             pose[w, WALL_Q + c] = q[c]
 
