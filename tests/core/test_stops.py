@@ -94,6 +94,12 @@ def test_a_wall_goes_through_its_stages_and_then_the_run_ends(tmp_path):
     assert force[third] <= 0.1 < force[first:third].min()
 
 
+def test_a_stage_that_never_ended_is_told(tmp_path):
+    short = [*ENDED[2:], "time.end={time: 0.1 ms}"]
+    told = run_scene(load(write(tmp_path, CRUSH), [STAGED, *short]), tmp_path / "run").summary["warnings"]
+    assert any("walls.upper was still in motion 1 of 3 (constant_velocity) at the end" in text for text in told)
+
+
 def test_a_wall_turns_at_the_same_sample_after_a_resume(tmp_path):
     scene = load(write(tmp_path, CRUSH), [STAGED, *ENDED])
     whole, half, resumed = (Simulation(scene, threads=1) for _ in range(3))

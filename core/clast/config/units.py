@@ -60,7 +60,7 @@ _NAMES: dict[Dimension, tuple[str, str]] = {
     (0, 0, 1, 0): ("a time", "5 us"),
     (0, 0, 0, 1): ("an angle", "30 deg"),
     (1, 0, -1, 0): ("a velocity", "10 mm/s"),
-    (0, 0, -1, 1): ("an angular velocity", "5 rad/s"),
+    (0, 0, -1, 1): ("an angular velocity", "30 rpm"),
     (1, 0, -2, 0): ("an acceleration", "9.81 m/s2"),
     (-3, 1, 0, 0): ("a density", "190 kg/m3"),
     (-1, 1, -2, 0): ("a stress", "5.6 MPa"),

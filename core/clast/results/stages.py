@@ -38,3 +38,18 @@ class Stages:
         walls.course[w, : len(course.row)] = course.row
         walls.begun[w] = simulation.time
         walls.stage[w] = number, sample
+
+
+def unfinished(simulation: Simulation) -> list[str]:
+    """Return a sentence for each wall whose present motion waited for a condition to the end of a run."""
+    told = []
+    for w, (name, wall) in enumerate(simulation.config.walls.items()):
+        number = int(simulation.world.walls.stage[w, 0])
+        stage = wall.stages[number] if number < len(wall.stages) else None
+        if stage is not None and stage.until is not None and simulation.ended is None:
+            what = f"motion {number + 1} of {len(wall.stages)} ({stage.motion.name})"
+            told.append(
+                f"walls.{name} was still in {what} at the end: its 'until' ({stage.until.name}) never held. Give the "
+                "run more time, or it another condition"
+            )
+    return told

@@ -20,6 +20,7 @@ from clast.results.fragments import fragments
 from clast.results.memory import peak_memory
 from clast.results.run import Run
 from clast.results.side import side_results
+from clast.results.stages import unfinished
 from clast.results.warnings import warnings
 from clast.results.whole_file import whole_file
 from clast.simulation import Simulation
@@ -70,7 +71,7 @@ def summarise(simulation: Simulation, curves: Curves, wall_time: float) -> dict[
         "time_step_limits_s": limits_table(simulation),
         "time_step_ruled_by": ruling(simulation.config, simulation.limits),
         "time_step_warning": simulation.keeper.warning,
-        "warnings": warnings(scene, pressed),
+        "warnings": [*warnings(scene, pressed), *unfinished(simulation)],
         "steps": simulation.step,
         "simulated_time_s": simulation.time,
         "ended_by": simulation.ended._asdict() if simulation.ended else None,
