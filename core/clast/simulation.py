@@ -34,6 +34,8 @@ from clast.stability.step_keeper import StepKeeper
 from clast.stability.time_step import Limits, choose_step, limits
 
 BOND_COLUMNS = 8
+LEAVING = 50
+"""Steps after which particles that have left the domain are taken out, whenever neighbour lists are made."""
 
 
 class Observer(Protocol):
@@ -178,9 +180,13 @@ class Simulation:
         RunError
             If the time step cannot follow what happens, see :mod:`clast.soundness`, or a fixed step becomes too large.
         """
+        open_ = self.config.boundaries.domain is not None
         while True:
             look = self.keeper.next_look(self.step)
-            self._advance_to(step if look is None else min(step, look))
+            leave = (self.step // LEAVING + 1) * LEAVING if open_ else None
+            self._advance_to(min(each for each in (step, look, leave) if each is not None))
+            if self.step == leave:
+                self._remove_leavers()
             if self.step == look:
                 self.change_step(self.keeper.look(self.world, self.dt, self.timeline.spans[0].dt))
             if self.step >= step:
@@ -191,7 +197,6 @@ class Simulation:
         while self.crew.advance(self.kernel.advance, self.world, step, self.step) == STALE:
             away = runaways(self.world.particles, self.world.chunks, self.world.stale)
             self._stop_for(self.soundness.complaint_of(away, self.world, self.dt))
-            self._remove_leavers()
             self.world, fresh = self.lists.brought_up_to_date(self.world, away, self.dt)
             look = self.soundness.complaint if fresh is self.world else self.soundness.contact_complaint
             self._stop_for(look(fresh, self.dt))
@@ -269,8 +274,6 @@ class Simulation:
             )
 
     def _remove_leavers(self) -> None:
-        if self.config.boundaries.domain is None:
-            return
         particles, bonds = self.world.particles, self.world.bonds
         leaving = outside_of(self.box, particles.pose[:, X : X + 3]) & (particles.present != 0)
         if not leaving.any():
@@ -278,6 +281,6 @@ class Simulation:
         before = self.ledger().stored if self.plan.ledger else 0.0
         self.removed += int(leaving.sum())
         take_out(particles, bonds, leaving)
-        self.lists.discard()
+        self.world = self.lists.made_anew(self.world, self.dt)
         if self.plan.ledger:
             self.world.ledger[-1, LEFT] += before - self.ledger().stored

@@ -67,12 +67,25 @@ def _turn_about_one_point(stages: tuple[Stage, ...]) -> tuple[Stage, ...]:
     return stages
 
 
+def _go_on_as_they_are(stages: tuple[Stage, ...]) -> tuple[Stage, ...]:
+    """Refuse velocities at the start of motions that answer, behind the first: such a wall goes on as it moves."""
+    for k, stage in enumerate(stages[1:], 1):
+        part = stage.motion.part
+        course = part.course(stage.motion.params)
+        begins = (*(part.start(course) if part.start else ()), *(part.start_spin(course) if part.start_spin else ()))
+        if any(begins):
+            text = f"motion {k} ({stage.motion.name}) goes on from what the wall does; leave its velocity and spin out"
+            raise refuse([problem((k,), text)])
+    return stages
+
+
 Stages = Annotated[
     Annotated[
         tuple[Annotated[Stage, STAGE], ...],
         Field(min_length=1),
         AfterValidator(_all_but_the_last_end),
         AfterValidator(_turn_about_one_point),
+        AfterValidator(_go_on_as_they_are),
         Tag("<list>"),
     ]
     | Annotated[Stage, STAGE, Tag("<one>")],

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from clast.engine import runaways
 from clast.engine.blueprint import Blueprint
 from clast.engine.histories import pair_rows
@@ -64,10 +62,6 @@ class NeighbourLists:
         self.spent = 0.0
         self.extents = None
         return world
-
-    def discard(self) -> None:
-        """Have lists made anew as soon as they go stale, whoever runs away: they no longer fit."""
-        self.spent = np.inf
 
     def brought_up_to_date(self, world: World, away: Integers, dt: float) -> tuple[World, World]:
         """Return the world with lists that fit again, and the same with nothing on them but what is new.

@@ -1,11 +1,11 @@
-"""Motion: particles that are nowhere, that a step moves or turns too far, or that have passed into each other."""
+"""Motion: what is nowhere, what a step moves or turns too far, and particles that have passed into each other."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from clast.engine.blueprint import Blueprint
-from clast.engine.kernels.layout import INTACT, PER_SPAN, RADIUS, V, W, X
+from clast.engine.kernels.layout import INTACT, PER_SPAN, RADIUS, WALL_W, V, W, X
 from clast.engine.state import Integers, World
 from clast.engine.tables import box_of, slot_view
 from clast.scene.scene import Scene
@@ -53,6 +53,19 @@ def too_fast(world: World, scene: Scene, plan: Blueprint, dt: float, some: Some 
     k = int(np.argmax(turns))
     if plan.spin and turns[k] > MOST_TURN:
         return f"particle {k} turns by {turns[k]:.2g} rad in one step"
+    return None
+
+
+def wall_out_of_hand(world: World, scene: Scene, dt: float) -> str | None:
+    """Return which wall has no place any more, or turns too far in one step of ``dt`` seconds."""
+    walls, names = world.walls, list(scene.config.walls)
+    sound = np.isfinite(walls.pose).all(axis=1) & np.isfinite(walls.twist).all(axis=1)
+    if not sound.all():
+        return f"the wall '{names[int(np.argmin(sound))]}' is nowhere: look at its mass, its inertia and what moves it"
+    turns = np.linalg.norm(walls.twist[:, WALL_W:], axis=1) * dt
+    if len(turns) and turns.max() > MOST_TURN:
+        k = int(np.argmax(turns))
+        return f"the wall '{names[k]}' turns by {turns[k]:.2g} rad in one step"
     return None
 
 

@@ -8,7 +8,7 @@ from clast.scene.scene import Scene
 from clast.soundness.crowded import crowded
 from clast.soundness.energy import EnergyWatch
 from clast.soundness.impacts import ImpactsAhead
-from clast.soundness.motion import ALL, Some, lost, passed_through, round_the_other_way, too_fast
+from clast.soundness.motion import ALL, Some, lost, passed_through, round_the_other_way, too_fast, wall_out_of_hand
 from clast.soundness.near import Gaps, Nearness
 
 
@@ -41,7 +41,9 @@ class Soundness:
 
     def motion_complaint(self, world: World, dt: float) -> str | None:
         """Return the same of single particles and bonds, for which neighbour lists need not be fresh."""
-        return self.complaint_of(ALL, world, dt) or round_the_other_way(world)
+        return (
+            self.complaint_of(ALL, world, dt) or wall_out_of_hand(world, self.scene, dt) or round_the_other_way(world)
+        )
 
     def complaint_of(self, some: Some, world: World, dt: float) -> str | None:
         """Return the same of some particles alone."""

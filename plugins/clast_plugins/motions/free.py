@@ -41,7 +41,7 @@ class Free(Params):
     Leapfrog, as particles have it: L. Verlet (1967), doi:10.1103/PhysRev.159.98.
     """
 
-    mass: Annotated[Mass, Field(gt=0, examples=["1 g"], description="Mass of the wall")]
+    mass: Annotated[Mass, Field(gt=1e-30, examples=["1 g"], description="Mass of the wall")]
     gravity: Annotated[
         AccelerationVector,
         Field(examples=[[0, 0, "-9.81 m/s2"]], description="Acceleration of gravity, for this wall alone"),
@@ -90,8 +90,8 @@ def answer(course: Course, time: float, pressed: Pressed) -> Vec:
     >>> answer(Course(2.0, (0.0, 0.0, -1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), 0.0, pushed)
     (0.0, 0.0, 1.5)
     """
-    acceleration = held_to(course.along, add(course.driven, scale(1.0 / course.mass, pressed.force)))
-    return add(pressed.velocity, scale(0.5 * (pressed.since + pressed.span), acceleration))
+    acceleration = add(course.driven, scale(1.0 / course.mass, pressed.force))
+    return held_to(course.along, add(pressed.velocity, scale(0.5 * (pressed.since + pressed.span), acceleration)))
 
 
 def step_share(course: Course, mass: float, arm: float) -> float:

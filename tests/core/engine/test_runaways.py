@@ -178,7 +178,8 @@ def test_nobody_meets_a_particle_that_left(monkeypatch: pytest.MonkeyPatch) -> N
     assert mended.lists.mended > 0
     gone = np.flatnonzero(mended.world.particles.present == 0)
     assert not np.isin(np.array(sorted(listed(mended))), gone).any()
-    assert (mended.removed, anew.removed) == (anew.removed, mended.removed)
+    assert mended.removed == anew.removed
+    assert_same(anew, mended)
 
 
 def test_places_of_runaways_are_asked_of_stale_chunks_alone(monkeypatch: pytest.MonkeyPatch) -> None:

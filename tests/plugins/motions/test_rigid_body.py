@@ -10,18 +10,18 @@ import pytest
 
 from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping, load
-from clast.errors import ConfigError, PluginError
-from clast.maths.rotation import IDENTITY
+from clast.errors import ConfigError, PluginError, RunError
+from clast.maths.rotation import IDENTITY, turn
 from clast.maths.vec3 import ZERO
 from clast.parts.params import Params
-from clast.parts.wall import Motion, Turned
+from clast.parts.wall import Motion, Pressed, Turned
 from clast.plugins.discovery import discover
 from clast.results import checkpoint
 from clast.scene.compression import Gauge
 from clast.scene.start import check_start
 from clast.scene.turning import arm
 from clast.simulation import Simulation
-from clast_plugins.motions.rigid_body import Course, answer_spin
+from clast_plugins.motions.rigid_body import Course, answer, answer_spin, momentum
 
 GLASS = {"glass": {"density": 2500, "young_modulus": 5e6, "poisson_ratio": 0.2}}
 BODY = {
@@ -139,9 +139,9 @@ def begin(scene: SceneConfig) -> None:
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"walls.slab.motion.inertia": [1e-10, 1e-10, 3e-10]}, "no body has these moments"),
-        ({"walls.slab.motion.inertia": [0, 1e-10, 1e-10]}, "no body has these moments"),
-        ({"walls.slab.motion.mass": 0}, "mass: must be greater than 0"),
+        ({"walls.slab.motion.inertia": [1e-10, 1e-10, 3e-10]}, "no body has these three moments"),
+        ({"walls.slab.motion.inertia": [0, 1e-10, 1e-10]}, "no body has these three moments"),
+        ({"walls.slab.motion.mass": 0}, "mass: must be greater than 1e-30"),
         (
             {"walls.floor.motion": BODY},
             "walls.floor: a 'plane' has no end, so it has no centre of mass to turn about; take a shape that ends",
@@ -164,6 +164,53 @@ def test_what_is_no_body_is_refused(changes: dict[str, Any], said: str) -> None:
     with pytest.raises(ConfigError) as refused:
         begin(loaded().changed(changes))
     assert said in str(refused.value)
+
+
+def test_a_body_that_turns_too_far_in_a_step_is_told_with_its_name() -> None:
+    with pytest.raises(RunError, match=r"the wall 'slab' turns by .* rad in one step"):
+        ran(loaded({"spin": [0, 0, 1e5]}))
+
+
+STAGES = [
+    {
+        "type": "rotation",
+        "axis": [0, 0, 1],
+        "point": BODY["centre"],
+        "rate": 20.0,
+        "until": {"type": "elapsed", "time": 2e-3},
+    },
+    BODY | {"about": [1, 0, 0], "along": [0, 0, 1]},
+]
+
+
+def test_a_body_that_is_held_stops_what_it_did_before_across() -> None:
+    course = Course(2.0, (1.0, 2.0, 3.0), ZERO, ZERO, ZERO, ZERO, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+    pressed = Pressed((5.0, 5.0, 4.0), 1.0, (1.0, 2.0, 3.0), span=0.1, since=0.1)
+    assert answer(course, 0.0, pressed) == pytest.approx((0.0, 0.0, 3.2))
+    turned = Turned((4.0, 4.0, 4.0), IDENTITY, (1.0, 2.0, 3.0), span=0.1, since=0.1)
+    assert answer_spin(course, 0.0, turned) == pytest.approx((1.4, 0.0, 0.0))
+
+
+def test_what_a_body_begins_with_is_refused_behind_another_motion() -> None:
+    begins = [STAGES[0], BODY | {"spin": [1, 0, 0]}]
+    with pytest.raises(
+        ConfigError, match=r"motion 1 \(rigid_body\) goes on from what the wall does; leave its velocity"
+    ):
+        loaded().changed({"walls.slab.motion": begins})
+
+
+def test_slender_bodies_keep_their_angular_momentum() -> None:
+    """A rod that spins fast about its long axis takes many rounds."""
+    inertia, dt = (1e-11, 4e-10, 4e-10), 1e-3
+    course = Course(1.0, inertia, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO)
+    spin, q = (60.0, 50.0, 62.0), IDENTITY
+    first = momentum(inertia, q, spin)
+    q = turn(q, spin, 0.5 * dt)
+    for _ in range(500):
+        spin = answer_spin(course, 0.0, Turned(ZERO, q, spin, dt, dt))
+        q = turn(q, spin, dt)
+    last = momentum(inertia, turn(q, spin, -0.5 * dt), spin)
+    assert last == pytest.approx(first, rel=1e-6)
 
 
 def test_shapes_that_end_tell_how_far_they_reach() -> None:
