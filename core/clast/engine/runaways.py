@@ -103,8 +103,8 @@ def pairs_of(particles: Particles, where: Extents, away: Integers, most: float, 
     Two are near if they can come closer than ``more`` in m beyond touch; no particle reaches farther than ``most``.
     Those that nothing could move are left out.
     """
-    found = []
-    for i in away.tolist():
+    found = [np.zeros((0, 2), np.int64)]
+    for i in away[particles.present[away] != 0].tolist():
         place, reach = particles.reference[i, :3], particles.pose[i, RADIUS] + np.sqrt(particles.reference[i, 3]) + more
         near = where.near(place, reach + most, box)
         near = near[(near != i) & (near < len(particles.pose))]

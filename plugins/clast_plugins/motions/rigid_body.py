@@ -24,6 +24,7 @@ from clast.maths.vec3 import ZERO, Vec, add, dot, norm, scale, sub
 from clast.parts.params import Params
 from clast.parts.wall import Motion, Pressed, Turned
 from clast.plugins.registry import Registry
+from clast_plugins.motions.free import held_to
 
 ROUNDS = 40
 """How often, at the most, the spin in the middle of a span is found from the orientation there, which it leads to: each
@@ -124,13 +125,6 @@ def course(params: RigidBody) -> Course:
 def unit(direction: Vec | None) -> Vec:
     """Return the unit vector of a direction; zero for none."""
     return ZERO if direction is None else scale(1.0 / norm(direction), direction)
-
-
-def held_to(along: Vec, vector: Vec) -> Vec:
-    """Return the part of a vector along a unit direction; all of it where the direction is zero."""
-    if dot(along, along) == 0.0:
-        return vector
-    return scale(dot(along, vector), along)
 
 
 def momentum(inertia: Vec, q: Quat, spin: Vec) -> Vec:
