@@ -130,7 +130,7 @@ def unit(direction: Vec | None) -> Vec:
 def momentum(inertia: Vec, q: Quat, spin: Vec) -> Vec:
     """Return the angular momentum of a body that is turned by q, in kg m²/s.
 
-    >>> momentum((1.0, 2.0, 3.0), IDENTITY, (1.0, 1.0, 1.0))
+    >>> momentum((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
     (1.0, 2.0, 3.0)
     """
     R = matrix(q)
@@ -168,7 +168,7 @@ def answer_spin(course: Course, time: float, turned: Turned) -> Vec:
     moment changes it, and the body turns on to the middle of the next with the spin that it has there.
 
     >>> top = Course(1.0, (2.0, 2.0, 2.0), ZERO, ZERO, ZERO, ZERO, ZERO, ZERO)
-    >>> answer_spin(top, 0.0, Turned((0.0, 0.0, 4.0), IDENTITY, (0.0, 0.0, 1.0), span=0.1, since=0.1))
+    >>> answer_spin(top, 0.0, Turned((0.0, 0.0, 4.0), (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 1.0), span=0.1, since=0.1))
     (0.0, 0.0, 1.2)
     """
     q, pushed = turned.orientation, add(course.moment, turned.moment)
