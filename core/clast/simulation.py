@@ -180,7 +180,7 @@ class Simulation:
         RunError
             If the time step cannot follow what happens, see :mod:`clast.soundness`, or a fixed step becomes too large.
         """
-        open_ = self.config.boundaries.domain is not None
+        open_ = self.config.boundaries.domain is not None and not self.scene.box.periodic.all()
         while True:
             look = self.keeper.next_look(self.step)
             leave = (self.step // LEAVING + 1) * LEAVING if open_ else None
