@@ -19,7 +19,7 @@ from numba import njit
 
 from clast import Simulation, load
 from clast.bench.scenes import Body, base_grain, grain_array, scene, write_scene, write_tables
-from clast.engine.compiler import INNER
+from clast.engine.compiler import INNER, STRICT
 from clast.engine.kernels.layout import LANES
 
 REPEATS = 7
@@ -61,7 +61,7 @@ def sweeps(kernels: Kernels) -> dict[str, Callable[..., None]]:
                 scratch, book = world.scratch[c], world.ledger[c]
                 sweep_bonds(world.bonds, c, world.particles, world.cracks, numbers, scratch, book, numbers.dt, 1)
 
-    @njit(**INNER)  # type: ignore[untyped-decorator]
+    @njit(**STRICT)  # type: ignore[untyped-decorator]
     def contacts(world: Any, repeats: int) -> None:
         numbers, active = world.numbers, np.empty(LANES, np.uint32)
         for _ in range(repeats):

@@ -161,7 +161,7 @@ def let_compiled_code_call(functions: list[Callable[..., Any]]) -> None:
 
     for function in reachable(functions):
         if function not in _registered:
-            register_jitable(forceinline=True, **compiler.STRICT)(function)
+            register_jitable(**compiler.STRICT, **compiler.OF_PART)(function)
             _registered.add(function)
 
 

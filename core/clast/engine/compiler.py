@@ -12,9 +12,12 @@ from numba.extending import typeof_impl
 F = TypeVar("F", bound=Callable[..., Any])
 
 STRICT = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-INNER = STRICT | {"no_cpython_wrapper": True}
+INNER = STRICT | {"no_cpython_wrapper": True, "_nrt": False}
 """For functions that only compiled code calls. Doors for Python and C in each of them would take a third of the whole
-time of compiling."""
+time of compiling, counting who holds which table a sixth: they make no tables, and the entries hold all they are given.
+"""
+OF_PART = {"forceinline": True, "_nrt": True}
+"""For the plain functions of parts, which may make tables of their own."""
 
 
 class Inner:
@@ -22,7 +25,7 @@ class Inner:
 
     def __init__(self, function: Callable[..., Any], **options: bool) -> None:
         self.py_func = function
-        self.dispatcher = njit(**INNER, **options)(function)
+        self.dispatcher = njit(**INNER | options)(function)
         update_wrapper(self, function)
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
@@ -49,3 +52,13 @@ def routine(function: F) -> F:
 def inlined(function: F) -> F:
     """Compile a function into its callers: what lets a loop over lanes vectorise."""
     return cast(F, Inner(function, forceinline=True))
+
+
+def of_part(function: F) -> F:
+    """Compile a part's own function into its callers."""
+    return cast(F, Inner(function, **OF_PART))
+
+
+def written_out(function: F) -> F:
+    """Compile a function as if its text stood in its callers: needed where it returns a table it did not make."""
+    return cast(F, njit(inline="always", **STRICT)(function))

@@ -16,7 +16,7 @@ def bind(name: str, item: Callable[..., Any] | type | None) -> str:
     if isinstance(item, type):
         return f"{name} = import_module({item.__module__!r}).{item.__qualname__}"
     module, qualified = address(item)
-    return f"{name} = inlined(import_module({module!r}).{qualified})"
+    return f"{name} = of_part(import_module({module!r}).{qualified})"
 
 
 def bind_record(name: str, record: type | None) -> str:

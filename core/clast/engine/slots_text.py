@@ -14,7 +14,7 @@ from clast.engine.slots_pieces import bind, bind_record, function
 HEADER = '''"""What one scene plugs into the step loop. Written by the assembler; do not edit."""
 from importlib import import_module
 
-from clast.engine.compiler import inlined
+from clast.engine.compiler import inlined, of_part
 from clast.maths.rotation import IDENTITY, spin_about, swing
 from clast.maths.vec3 import ZERO, add, scale
 from clast.parts.contact_law import NO_DRAG, ContactLoad, ContactLosses, Drag, overlap_before, stretch_before

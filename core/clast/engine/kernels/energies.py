@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from clast.engine.compiler import compiled, inlined, routine
-from clast.engine.state import Floats, Indices, Numbers, Pairs, Particles, WallPairs, Walls, World
+from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, WallPairs, Walls, World
 from clast.maths.vec3 import dot, scale
 from clast.parts.contact_law import NO_DRAG, Drag, Touch
 
@@ -107,11 +107,12 @@ def energies(world: World, moving: bool, found: Floats) -> None:
     back = -LAG * world.numbers.dt
     time = SINCE_FORCES * world.numbers.dt - back if moving else 0.0
     scratch = np.empty(max(BOND_SCRATCH, HISTORY_BASE + HISTORY + 1) * LANES)
+    active = np.empty(LANES, np.uint32)
     poses, wall_poses = world.particles.pose.copy(), world.walls.pose.copy()
     if LAG != 0.0:
         go_back(world, scratch, back)
     found[0] = kinetic_energy(world.particles, world.numbers.dt)
-    found[1], found[2] = elastic_energies(world, scratch, time, found[LATEST:])
+    found[1], found[2] = elastic_energies(world, active, scratch, time, found[LATEST:])
     for w in range(len(world.walls.shape_kind)):
         found[LATEST + WALLS_DID] -= time * power_on_wall(world.walls, w)
     if STRETCHES:
@@ -124,16 +125,16 @@ def energies(world: World, moving: bool, found: Floats) -> None:
 
 
 @inlined
-def elastic_energies(world: World, scratch: Floats, time: float, lost: Floats) -> tuple[float, float]:
+def elastic_energies(world: World, active: Indices, scratch: Floats, time: float, lost: Floats) -> tuple[float, float]:
     """Return the elastic energies of contacts and of bonds, some time after the last force evaluation; add losses."""
-    contacts = bonds = 0.0
+    particles, numbers, contacts, bonds = world.particles, world.numbers, 0.0, 0.0
     if CONTACTS:
-        contacts = energy_of_pairs(world, world.pairs, scratch, time, lost)
+        contacts = energy_of_pairs(particles, world.pairs, world.bonds, numbers, active, scratch, time, lost)
     if WALLS:
         for p in range(len(world.wall_pairs.wall)):
-            contacts += wall_energy(world, world.walls, world.wall_pairs, world.particles, p, time, lost)
+            contacts += wall_energy(particles, world.walls, world.wall_pairs, numbers, p, time, lost)
     if BONDS:
-        bonds = energy_of_bonds(world, scratch, time)
+        bonds = energy_of_bonds(particles, world.bonds, numbers, scratch, time)
     return contacts, bonds
 
 
@@ -155,17 +156,16 @@ def kinetic_energy(particles: Particles, dt: float) -> float:
 
 
 @routine
-def energy_of_bonds(world: World, scratch: Floats, time: float) -> float:
+def energy_of_bonds(particles: Particles, bonds: Bonds, numbers: Numbers, scratch: Floats, time: float) -> float:
     """Return the elastic energy of all bonds; those that let go slowly count with the share of load they have left.
 
     Strains that are summed up over the steps are taken on to the time of the positions, and not kept.
     """
-    bonds, total = world.bonds, 0.0
-    uniforms = read_uniforms(world.numbers.bond_uniforms)
+    total, uniforms = 0.0, read_uniforms(numbers.bond_uniforms)
     for b in range(len(bonds.first)):
         data = bonds.data[b]
         for lane in range(LANES):
-            gather_ends(world.particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
+            gather_ends(particles, bonds.first[b, lane], bonds.second[b, lane], scratch, lane)
         for lane in range(LANES):  # always all: a loop of fixed length vectorises
             energy_of_lane(data, scratch, lane, uniforms, time)
         for lane in range(LANES):
@@ -197,25 +197,35 @@ def energy_of(touch: Touch, constants, history, time: float, drag: Drag):  # typ
 
 
 @routine
-def energy_of_pairs(world: World, pairs: Pairs, scratch: Floats, time: float, lost: Floats) -> float:
+def energy_of_pairs(
+    particles: Particles,
+    pairs: Pairs,
+    bonds: Bonds,
+    numbers: Numbers,
+    active: Indices,
+    scratch: Floats,
+    time: float,
+    lost: Floats,
+) -> float:
     """Return the elastic energy of all touching pairs, in blocks of lanes; add what they have lost."""
-    active, count, total = np.empty(LANES, np.uint32), 0, 0.0
+    count, total = 0, 0.0
     for k in range(len(pairs.first)):
-        counts = meet(world.particles, pairs, k, world.numbers, scratch, count) and pairs.sides[k] & FIRST != 0
+        counts = meet(particles, pairs, k, numbers, scratch, count) and pairs.sides[k] & FIRST != 0
         if not BONDED_PAIRS_TOUCH:
-            counts = counts and not joined(pairs, world.bonds, k)
+            counts = counts and not joined(pairs, bonds, k)
         active[count] = k
         count += 1 if counts else 0
         if count == LANES:
-            total = add_block(world, pairs, active, count, scratch, time, total, lost)
+            total = add_block(particles, pairs, numbers, active, count, scratch, time, total, lost)
             count = 0
-    return add_block(world, pairs, active, count, scratch, time, total, lost)
+    return add_block(particles, pairs, numbers, active, count, scratch, time, total, lost)
 
 
 @routine
 def add_block(
-    world: World,
+    particles: Particles,
     pairs: Pairs,
+    numbers: Numbers,
     active: Indices,
     count: int,
     scratch: Floats,
@@ -224,7 +234,6 @@ def add_block(
     lost: Floats,
 ) -> float:
     """Return a total with the energies of one block of touching pairs added; add what they have lost."""
-    particles, numbers = world.particles, world.numbers
     for lane in range(count):
         gather(particles, pairs, active[lane], numbers, scratch, lane)
     material = int(particles.body[0, MATERIAL])
@@ -258,10 +267,9 @@ def energy_of_pair(scratch: Floats, lane: int, shared: Any, numbers: Numbers, ti
 
 @inlined
 def wall_energy(
-    world: World, walls: Walls, pairs: WallPairs, particles: Particles, p: int, time: float, lost: Floats
+    particles: Particles, walls: Walls, pairs: WallPairs, numbers: Numbers, p: int, time: float, lost: Floats
 ) -> float:
     """Return the elastic energy of a particle and a wall, 0 where they do not touch."""
-    numbers = world.numbers
     w, k = pairs.wall[p], pairs.particle[p]
     near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
     radius = particles.pose[k, RADIUS]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from clast.engine.compiler import compiled, inlined
-from clast.engine.state import Floats, World
+from clast.engine.state import Floats, Pairs, Particles, World
 from clast.maths.vec3 import Vec, dot
 
 from .contact_sweep import joined
@@ -34,7 +34,7 @@ def gaps(world: World, between: Floats, at_walls: Floats) -> None:
             counts = world.pairs.sides[k] & FIRST != 0
             if not BONDED_PAIRS_TOUCH:
                 counts = counts and not joined(world.pairs, world.bonds, k)
-            write_pair(world, k, counts, between)
+            write_pair(world.particles, world.pairs, k, counts, between)
     if WALLS:
         for p in range(len(world.wall_pairs.wall)):
             k = world.wall_pairs.particle[p]
@@ -43,13 +43,13 @@ def gaps(world: World, between: Floats, at_walls: Floats) -> None:
 
 
 @inlined
-def write_pair(world: World, k: int, counts: bool, found: Floats) -> None:
+def write_pair(particles: Particles, pairs: Pairs, k: int, counts: bool, found: Floats) -> None:
     """Write direction and overlap of pair k."""
-    pose, i, j = world.particles.pose, world.pairs.first[k], world.pairs.second[k]
-    d = way_between(world.particles, i, j)
+    pose, i, j = particles.pose, pairs.first[k], pairs.second[k]
+    d = way_between(particles, i, j)
     distance = sqrt(dot(d, d))
     per_distance = 1.0 / distance if distance > 0.0 else 1.0
-    overlap = pose[i, RADIUS] + pose[j, RADIUS] - distance - world.pairs.rest[k] if counts else -inf
+    overlap = pose[i, RADIUS] + pose[j, RADIUS] - distance - pairs.rest[k] if counts else -inf
     write(found, k, (per_distance * d[0], per_distance * d[1], per_distance * d[2]), overlap)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from clast.engine.compiler import inlined
+from clast.engine.compiler import inlined, written_out
 from clast.engine.state import Floats, Particles
 from clast.maths.vec3 import Vec, add, sub
 
@@ -19,7 +19,7 @@ from .layout import GROWTH, PER_SPAN, SPAN, V, X
 from .slots import PERIODIC, STRETCHES
 
 
-@inlined
+@written_out
 def box_of(particles: Any) -> Any:
     """Return the table of the box, which only particles that repeat themselves have."""
     return particles.box

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from clast.engine.compiler import inlined
+from clast.engine.compiler import inlined, written_out
 from clast.engine.state import Floats, Integers, Numbers, Particles, World
 from clast.maths.vec3 import dot
 from clast.parts.damping import Together
@@ -49,7 +49,7 @@ def together(ledger: Floats, clock: Integers, dt: float) -> Together:
     return Together(power, motion, force, clock[DOWNHILL], dt)
 
 
-@inlined
+@written_out
 def how_to_brake(world: World, clock: Integers) -> Any:
     """Return what the damping of motion is told in this step."""
     if STEERS:

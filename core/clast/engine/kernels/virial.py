@@ -47,15 +47,15 @@ def virial(world: World, moving: bool, found: Floats) -> None:
     """
     time = SINCE_FORCES * world.numbers.dt if moving else 0.0
     if CONTACTS:
-        add_pairs(world, time, found)
+        add_pairs(world, np.empty(FREE_LANES), time, found)
     if BONDS:
-        add_bonds(world, time, found)
+        add_bonds(world, np.empty(BOND_SCRATCH * LANES), time, found)
 
 
 @routine
-def add_pairs(world: World, time: float, found: Floats) -> None:
+def add_pairs(world: World, scratch: Floats, time: float, found: Floats) -> None:
     """Add what touching pairs do."""
-    scratch, pairs = np.empty(FREE_LANES), world.pairs
+    pairs = world.pairs
     for k in range(len(pairs.first)):
         counts = meet(world.particles, pairs, k, world.numbers, scratch, 0) and pairs.sides[k] & FIRST != 0
         if not BONDED_PAIRS_TOUCH:
@@ -66,9 +66,9 @@ def add_pairs(world: World, time: float, found: Floats) -> None:
 
 
 @routine
-def add_bonds(world: World, time: float, found: Floats) -> None:
+def add_bonds(world: World, scratch: Floats, time: float, found: Floats) -> None:
     """Add what bonds do; those that let go slowly count with the share of load they have left."""
-    bonds, scratch = world.bonds, np.empty(BOND_SCRATCH * LANES)
+    bonds = world.bonds
     uniforms = read_uniforms(world.numbers.bond_uniforms)
     for b in range(len(bonds.first)):
         data = bonds.data[b]
