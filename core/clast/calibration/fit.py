@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from clast.calibration.alone import alone
 from clast.calibration.config import CalibrationConfig
 from clast.calibration.identify import Identified, identify
 from clast.calibration.layout import ASKED
@@ -112,6 +113,7 @@ class Fitting:
         except ValueError as error:
             raise self.config.problem(("parameters", name), str(error)) from None
 
+    @alone()
     def fit(self) -> Fit:
         """Run all points of the budget and return what they say.
 
