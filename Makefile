@@ -2,6 +2,8 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+# Two processes test at a time: threads of their libraries would only wait for each other.
+ALONE := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
 # `make test` leaves out what is marked long; `make test-all` runs every test.
 .PHONY: run test test-all lint benchmark docs clean
@@ -13,10 +15,10 @@ test: $(VENV)/.test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/pytest -n 2 -m "not long"
+	$(ALONE) $(BIN)/pytest -n 2 -m "not long"
 
 test-all: $(VENV)/.test
-	$(BIN)/pytest -n 2
+	$(ALONE) $(BIN)/pytest -n 2
 
 benchmark: $(VENV)/.test
 	$(BIN)/clast bench --peer lammps

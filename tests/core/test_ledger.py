@@ -48,7 +48,7 @@ def test_the_work_of_walls_is_booked_up_to_the_moment_of_the_energies(tmp_path: 
     assert abs(simulation.ledger().closure) < 1e-4
 
 
-@pytest.mark.parametrize(("restitution", "most"), [(0.5, 1e-4), (1.0, 5e-4)])
+@pytest.mark.parametrize(("restitution", "most"), [(0.5, 1e-4), pytest.param(1.0, 5e-4, marks=pytest.mark.long)])
 def test_a_crush_closes_at_the_default_step(tmp_path: Path, restitution: float, most: float) -> None:
     """Contacts vibrate within few steps, and slip and stick in turns, most of all where no dashpot calms them."""
     step = 0.8 * Simulation(load(write(tmp_path, CRUSH))).limits.stable

@@ -100,7 +100,7 @@ def test_a_free_network_is_quiet_below_the_limit_and_blows_up_above(integrator: 
     assert speed(loud) > 100.0 * before
 
 
-@pytest.mark.parametrize("restitution", [0.5, 0.0])
+@pytest.mark.parametrize("restitution", [pytest.param(0.5, marks=pytest.mark.long), 0.0])
 def test_pressed_contacts_come_to_rest_below_the_limit_and_never_above(restitution: float) -> None:
     reached = {}
     for share in (0.95, 1.05):
