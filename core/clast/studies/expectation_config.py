@@ -51,11 +51,16 @@ class Expectation(Params):
     of: Annotated[Literal["mean", "deviation"], Field(description="What of the measure 'equals' is about")] = "mean"
     value: Annotated[Given | None, Field(description="What 'equals' expects")] = None
     within: Annotated[Number, Field(gt=0, description="Share by which 'same' and 'equals' may differ")] = 0.1
+    up_to: Annotated[
+        Number | None, Field(gt=0, description="Strain up to which curves are compared; all they have, if not given")
+    ] = None
 
     @model_validator(mode="after")
     def _what_each_check_needs(self) -> Expectation:
         if self.measure == CURVES and self.check != "same":
             raise ValueError(f"'{self.check}' needs a 'measure' that is one number; curves can only be the 'same'")
+        if self.up_to is not None and self.measure != CURVES:
+            raise ValueError(f"'up_to' is a strain at which curves are cut; {self.measure!r} is one number a run")
         if (self.check == "equals") != (self.value is not None):
             raise ValueError("'value' belongs to 'equals', and 'equals' needs it")
         if (self.check in ("larger", "smaller")) != bool(self.than):

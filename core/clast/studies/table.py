@@ -163,8 +163,16 @@ def _of(row: Row) -> tuple[Any, ...]:
     return _what(row.task)
 
 
-def curves(rows: Sequence[Row]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def curves(
+    rows: Sequence[Row], up_to: float | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return curves on one grid, up to the strain that all of them reach.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+    up_to : float, optional
+        Strain at which they are cut, where all reach it.
 
     Returns
     -------
@@ -173,7 +181,8 @@ def curves(rows: Sequence[Row]) -> tuple[NDArray[np.float64], NDArray[np.float64
         One row a run; not a number where there is no curve.
     """
     ends = [row.curve.strain[-1] for row in rows if row.curve is not None]
-    strain = np.linspace(0.0, min(ends, default=0.0), GRID)
+    least = min(ends, default=0.0)
+    strain = np.linspace(0.0, least if up_to is None else min(least, up_to), GRID)
     columns = np.full((2, len(rows), GRID), np.nan)
     for k, row in enumerate(rows):
         if row.curve is not None:

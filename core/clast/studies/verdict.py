@@ -135,6 +135,7 @@ def same(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[s
         return OPEN, "fewer than two points have results"
     away = _largest_distance(data, point, labels) / scale
     told = f"the point farthest from the mean of all differs by {away:.1%}, {len(labels)} points, {len(data)} runs"
+    told += f", up to {100.0 * expectation.up_to:.4g} % strain" if expectation.up_to is not None else ""
     if len(data) == len(labels):
         return (REPRODUCED if away <= expectation.within else OPEN), f"{told}; no repeats to tell scatter from"
     chance = _chance(data, repeat, point, labels)
@@ -151,7 +152,7 @@ def _observations(expectation: Expectation, rows: list[Row]) -> tuple[Floats, Fl
     """Return what is compared, (runs, k), with repeat and point of each, and the size of it."""
     if expectation.measure == CURVES:
         rows = [row for row in rows if row.curve is not None]
-        data = curves(rows)[1]
+        data = curves(rows, expectation.up_to)[1]
         scale = float(data.mean(axis=0).max()) if len(rows) else 1.0
     else:
         rows = [row for row in rows if _measured(row, expectation)]

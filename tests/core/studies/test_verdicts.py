@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from clast.studies.axis import Setting
 from clast.studies.expectation_config import Expectation
@@ -68,6 +69,24 @@ def test_no_influence(measure: str) -> None:
     assert verdict(table(lambda x: 5.0 + x, 0.2), **same) == NOT_REPRODUCED
     assert verdict(table(lambda x: 5.0, 4.0, repeats=2), **same) == OPEN
     assert verdict(table(lambda x: 5.0 + 0.02 * x, 0.001), **same) == REPRODUCED  # found, but below the margin
+
+
+def bent(strain: NDArray[np.float64], x: float) -> NDArray[np.float64]:
+    """Return a curve that is the same for every x up to 10 % strain."""
+    return strain + x * np.maximum(strain - 0.1, 0.0)
+
+
+def test_curves_are_compared_as_far_as_asked() -> None:
+    rows = []
+    for row in table(lambda x: x, 0.0, repeats=6, points=(1.0, 2.0)).rows:
+        assert row.curve is not None
+        rows.append(replace(row, curve=row.curve._replace(stress=bent(STRAIN, row.task.point))))
+    same = {"check": "same", "measure": "curves", "within": 0.01}
+    assert verdict(Table(rows), **same) == NOT_REPRODUCED
+    assert verdict(Table(rows), **same, up_to=0.3) == NOT_REPRODUCED  # no curve goes so far
+    assert verdict(Table(rows), **same, up_to=0.1) == REPRODUCED
+    assert verdict(Table(rows), **same, up_to=0.12) == NOT_REPRODUCED
+    assert "12 runs, up to 10 % strain" in evidence(Table(rows), **same, up_to=0.1)
 
 
 def test_points_are_compared_within_repeats_which_share_their_seeds() -> None:
