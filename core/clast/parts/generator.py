@@ -64,7 +64,8 @@ class Packing:
     bonds : BondList or None
         Bonds the generator knows; None leaves bonding to the scene's ``bonds.between``.
     relieved : bool
-        Whether overlaps at the start count as undeformed: contacts then push only beyond them.
+        Whether overlaps at the start count as undeformed: contacts then push only beyond them,
+        until the particles have been wholly apart.
     report : mapping
         What was reached, for the user: name with unit -> number or text.
     origin : (k) -> key path or str, optional

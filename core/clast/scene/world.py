@@ -19,7 +19,7 @@ from clast.engine.kernels.layout import (
     WALL_Q,
 )
 from clast.engine.records import fields, leaves, numbers
-from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles, Walls, World
+from clast.engine.state import Bonds, Floats, Indices, Integers, Numbers, Pairs, Particles, Walls, World
 from clast.engine.tables import (
     bond_table,
     crack_table,
@@ -146,11 +146,16 @@ def _contact_table(scene: Scene, plan: Blueprint) -> Floats:
 
 
 def relieve(scene: Scene, pairs: Pairs) -> None:
-    """Let the overlaps that relieved particles start with count as undeformed."""
-    i, j = pairs.first.astype(np.int64), pairs.second.astype(np.int64)
-    distance = np.linalg.norm(scene.ways(np.column_stack([i, j])), axis=1)
+    """Let the overlaps that relieved particles start with count as undeformed, until they have been wholly apart."""
+    pairs.rest[:] = overlaps_at_rest(scene, np.column_stack([pairs.first, pairs.second]).astype(np.int64))
+
+
+def overlaps_at_rest(scene: Scene, pairs: Integers) -> Floats:
+    """Return the overlaps up to which pairs (p, 2) do not push at the start, (p,) in m."""
+    i, j = pairs.T
+    distance = np.linalg.norm(scene.ways(pairs), axis=1)
     overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
-    pairs.rest[:] = np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0)
+    return np.asarray(np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0))
 
 
 def _walls(scene: Scene, plan: Blueprint) -> Walls:

@@ -16,6 +16,7 @@ from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
 from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs
 from clast.scene.scene import Scene
+from clast.scene.world import overlaps_at_rest
 from clast.stability.response import Response, respond, rolling_response
 
 Floats = NDArray[np.float64]
@@ -83,7 +84,9 @@ def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
     bonded_pairs_touch = plan.contacts is not None and plan.contacts.bonded_pairs
     return joined(
         bond_springs(scene, bodies, everything),
-        contact_springs(scene, responses, bodies, pairs, everything & (not bonded_pairs_touch)),
+        contact_springs(
+            scene, responses, bodies, pairs, overlaps_at_rest(scene, pairs), everything & (not bonded_pairs_touch)
+        ),
         wall_springs(scene, responses, bodies, near, still),
         drag_springs(scene, bodies, scene.velocity),
     )
@@ -135,21 +138,24 @@ def drag_springs(scene: Scene, bodies: Bodies, velocity: Floats) -> Springs:
 
 
 def contact_springs(
-    scene: Scene, responses: Responses, bodies: Bodies, pairs: Integers, instead: NDArray[np.bool_]
+    scene: Scene, responses: Responses, bodies: Bodies, pairs: Integers, rest: Floats, instead: NDArray[np.bool_]
 ) -> Springs:
     """Return the springs of the pairs (p, 2) that touch, but for those in whose stead a bond holds, (m,) bool.
+
+    Up to an overlap of ``rest`` (p,) in m they do not push.
 
     With a law whose contacts hold beyond touch, all pairs within their reach count, whether they have touched or not.
     """
     if not responses or len(pairs) == 0:
         return no_springs()
     if instead.any():
-        pairs = pairs[~np.isin(pair_numbers(scene, pairs), pair_numbers(scene, scene.ends[instead]))]
+        free = ~np.isin(pair_numbers(scene, pairs), pair_numbers(scene, scene.ends[instead]))
+        pairs, rest = pairs[free], rest[free]
     i, j = pairs.T
     d = bodies.box.nearest(bodies.position[j] - bodies.position[i])
     distance = np.sqrt(d[:, 0] ** 2 + d[:, 1] ** 2 + d[:, 2] ** 2)
     reach = bodies.radius[i] + bodies.radius[j]
-    overlap = reach - distance - overlaps_at_rest(scene, pairs)
+    overlap = reach - distance - rest
     touching = (
         (overlap > -largest_reach(scene)) & (distance > 0.0) & (bodies.inverse_mass[i] + bodies.inverse_mass[j] > 0.0)
     )
@@ -251,14 +257,6 @@ def contact_responses(scene: Scene, plan: Blueprint) -> Responses:
             response = response._replace(rolling=shares[0], damping_rolling=shares[1])
         found[a, b] = found[b, a] = (law, constants, response)
     return found
-
-
-def overlaps_at_rest(scene: Scene, pairs: Integers) -> Floats:
-    """Return the overlaps up to which pairs do not push, (p,) in m."""
-    i, j = pairs.T
-    distance = np.linalg.norm(scene.ways(pairs), axis=1)
-    overlap = np.maximum(scene.radius[i] + scene.radius[j] - distance, 0.0)
-    return np.asarray(np.where(scene.relieved[i] & scene.relieved[j], overlap, 0.0))
 
 
 def pair_numbers(scene: Scene, pairs: Integers) -> Integers:

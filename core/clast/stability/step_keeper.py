@@ -156,7 +156,7 @@ class StepKeeper:
         near_walls = np.column_stack([near.wall, near.particle]).astype(np.int64)[near.slot == 0]
         holds = intact(world.bonds) if not self.bonded_pairs_touch else np.zeros(len(self.scene.ends), bool)
         return joined(
-            contact_springs(self.scene, self.responses, bodies, candidates, holds),
+            contact_springs(self.scene, self.responses, bodies, candidates, pairs.rest[once], holds),
             wall_springs(self.scene, self.responses, bodies, near_walls, now(world.walls)),
             drag_springs(self.scene, bodies, world.particles.twist[:, V : V + 3]),
         )

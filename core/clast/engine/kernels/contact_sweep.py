@@ -7,7 +7,7 @@ from typing import Any
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Bonds, Floats, Indices, Numbers, Pairs, Particles
-from clast.maths.vec3 import dot, scale, sub
+from clast.maths.vec3 import Vec, dot, scale, sub
 
 from .ahead import LINE, ask_for
 from .contact_lane import DRAG_NUMBERS, contact_lane, gather, kept_drag, radii, read_touch, scatter
@@ -119,6 +119,17 @@ def forget(pairs: Pairs, k: int) -> None:
 
 
 @inlined
+def forget_rest(particles: Particles, pairs: Pairs, k: int, numbers: Numbers, d: Vec) -> None:
+    """Let pair k, d from each other, push from touch on once its particles have been wholly apart.
+
+    What they overlapped at the start without pushing was their shape where they had grown together.
+    """
+    r_i, r_j = radii(particles, pairs.first[k], pairs.second[k], numbers)
+    if dot(d, d) >= (r_i + r_j) * (r_i + r_j):
+        pairs.rest[k] = 0.0
+
+
+@inlined
 def joined(pairs: Pairs, bonds: Bonds, k: int) -> bool:
     """Tell whether an intact bond stands in for the contact of pair k."""
     place = pairs.bond[k]
@@ -207,6 +218,8 @@ def sweep_contacts(
                 pairs.bond[k] = -1
                 if touches and pairs.sides[k] & FIRST:
                     book[WOKEN] += waking_energy(particles, pairs, k, numbers, scratch, count, dt)
+        if RESTS and touches == 0:
+            forget_rest(particles, pairs, k, numbers, vector(scratch, D, count))
         if REMEMBERS and pairs.touching[k] > touches:
             if CONTACT_LOSSES and pairs.sides[k] & FIRST:
                 book_parting(particles, pairs, k, numbers, dt, book)
