@@ -1,4 +1,4 @@
-"""Overlaps that a grain starts with push nothing until their particles have been wholly apart, whatever lists are made."""
+"""Overlaps at the start push nothing until their particles have been wholly apart, whatever lists are made."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ class SpheresParams(Params):
     ] = None
     accept_overlap: Annotated[
         bool,
-        Field(description="Take the best packing found even where larger overlaps stay; contacts push beyond them only"),
+        Field(description="Take the best packing found even where larger overlaps stay; contacts push beyond them"),
     ] = False
     centre: Annotated[Point, Field(description="Centre of the packing")] = (0.0, 0.0, 0.0)
 
