@@ -120,6 +120,8 @@ def _write(part: Writer, export: Export, run: Run, path: Path) -> None:
         written = part.write(run, params, Path(drafts) / part.file)
         if written.path is None:
             raise RefusedError(f"{run.folder}: nothing is exported: {written.skipped}")
+        if written.path.is_dir() and path.is_file():
+            raise ConfigError(f"{path}: is a file, and a folder is needed; name another with -o")
         os.replace(written.path, path)
         for beside in Path(drafts).iterdir():
             os.replace(beside, path.with_name(beside.name))

@@ -198,6 +198,15 @@ def test_a_folder_that_holds_something_is_left_alone(grain_folder: Path, tmp_pat
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 
 
+def test_a_file_in_the_place_of_a_folder_is_left_alone(grain_folder: Path, tmp_path: Path) -> None:
+    thesis = tmp_path / "thesis.txt"
+    thesis.write_text("years of work")
+    with pytest.raises(ConfigError, match=r"thesis\.txt: is a file, and a folder is needed; name another with -o"):
+        export_run(grain_folder, "csv", thesis)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
+    assert thesis.read_text() == "years of work"
+
+
 def test_a_run_without_frames_says_so_and_still_has_its_curves(tmp_path: Path) -> None:
     scene = small_grain()
     folder = write_run(tmp_path / "run", scene._replace(frames={}))

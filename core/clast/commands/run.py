@@ -61,8 +61,8 @@ def default_folder(config: SceneConfig, resume: bool) -> Path:
 
 LONG_COMPILING = 120.0
 SLOW_COMPILER = (
-    f"still compiling after {LONG_COMPILING:.0f} s. A law with dictionaries, sorted() or lambdas can keep the compiler "
-    "busy for very long: write it with numbers, tuples and loops"
+    f"still compiling after {LONG_COMPILING:.0f} s: other work on this machine makes it longer, and so does a law of "
+    "your own with dictionaries, sorted() or lambdas, for very long; write it with numbers, tuples and loops"
 )
 
 

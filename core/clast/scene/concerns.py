@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from clast.config.scene import SceneConfig
 from clast.parts.generator import Prediction
+from clast.scene.bodies import odd_bodies
 from clast.scene.foretold import foretold
 from clast.scene.held import not_held
 from clast.scene.narrow_plates import narrow_plates
@@ -14,12 +15,12 @@ from clast.scene.scene import Scene
 
 
 def concerns(scene: Scene) -> list[str]:
-    """Return a sentence for each: what generators missed, open rooms, narrow plates, particles that nothing holds."""
+    """Return a sentence for each: what generators missed, open rooms, narrow plates, odd bodies, what nothing holds."""
     config = scene.config
     told = [foretold(config, chosen) for chosen in config.generators]
     bare = rooms_left_open(config, told)
     narrow = narrow_plates(config, 2.0 * float(scene.radius.min()))
-    return [*concerns_of_parts(config, told), *scene.concerns, *narrow, *(bare or not_held(scene))]
+    return [*concerns_of_parts(config, told), *scene.concerns, *narrow, *odd_bodies(scene), *(bare or not_held(scene))]
 
 
 def rooms_left_open(config: SceneConfig, told: Sequence[Prediction | None]) -> list[str]:

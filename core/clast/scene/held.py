@@ -36,8 +36,8 @@ def not_held(scene: Scene) -> list[str]:
         free = sum(not _stopped(scene, int(k), way) for k in chosen)
         if free > 0.5 * len(chosen):
             told.append(
-                f"nothing holds the particles against {name}: no wall lies behind them in its direction. Add one, such "
-                "as a bottom, or boundaries.domain"
+                f"nothing holds the particles against {name}: no wall lies behind them in the direction in "
+                "which it goes. Add one, such as a bottom, or boundaries.domain"
             )
     return told
 

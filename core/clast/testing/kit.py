@@ -20,14 +20,16 @@ def claims_of(entry: Registered, params: Any) -> list[Claim]:
 
 
 def remarks_on(entry: Registered) -> list[str]:
-    """Return what holds a part back from nothing, but leaves its users without help: parameters nobody describes."""
-    bare = [each.name for each in parameters(entry.part.Params) if not each.meaning]
-    if not bare:
-        return []
-    return [
-        f"no description of {', '.join(bare)}: with Field(description=...), messages, 'clast plugins show', the schema "
-        "for editors and the page of the part say what to give"
-    ]
+    """Return what no claim forbids, but is hardly meant so: parameters nobody describes, a state that nothing moves."""
+    found, bare = [], [each.name for each in parameters(entry.part.Params) if not each.meaning]
+    if bare:
+        found.append(
+            f"no description of {', '.join(bare)}: with Field(description=...), messages, 'clast plugins show', the "
+            "schema for editors and the page of the part say what to give"
+        )
+    if entry.kind == "bond_model" and entry.part.State is not None and not (entry.part.flow or entry.part.on_event):
+        found.append("State stays as it is at the start: neither 'flow' nor 'on_event' is given to the model")
+    return found
 
 
 def try_part(entry: Registered, changes: Mapping[str, Any] | None = None) -> list[Outcome]:

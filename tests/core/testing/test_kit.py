@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,13 @@ def test_a_parameter_without_a_description_is_a_remark_and_no_failure(
     assert "remark  no description of stress: with Field(description=...)" in capsys.readouterr().out
     assert check(str(tmp_path / "terse.py"), as_json=True)
     assert len(json.loads(capsys.readouterr().out)[0]["remarks"]) == 1
+
+
+def test_a_state_that_nothing_changes_is_a_remark() -> None:
+    entry = next(each for each in discover() if (each.kind, each.name) == ("bond_model", "elastic_plastic"))
+    forgetful = replace(entry, part=replace(entry.part, flow=None, on_event=None))
+    (remark,) = remarks_on(forgetful)
+    assert "neither 'flow' nor 'on_event'" in remark
 
 
 def test_every_parameter_of_clast_and_of_its_starting_files_is_described(tmp_path: Path) -> None:

@@ -1,0 +1,46 @@
+"""What is odd about a wall that forces move is said before it runs: whom it passes through, where it turns about."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from clast.building import build_scene
+from clast.config.scene import from_mapping
+from clast.scene.concerns import concerns
+
+CENTRE = (0.0, 0.0, 4.15e-3)
+
+
+def told(centre: tuple[float, float, float] = CENTRE, motion: str = "rigid_body", **held: bool) -> list[str]:
+    """Return what is said of a plate above one sphere."""
+    body: dict[str, Any] = {"mass": 6e-5, "gravity": [0.0, 0.0, -9.81]}
+    if motion == "rigid_body":
+        body |= {"centre": list(centre), "inertia": [3.2e-10, 5.0e-10, 8.2e-10]}
+    wall: dict[str, Any] = {"type": "block", "lower": [-5e-3, -4e-3, 4e-3], "upper": [5e-3, 4e-3, 4.3e-3]}
+    wall |= {"material": "glass"} | ({"motion": {"type": motion, **body}} if motion else {})
+    ground = {"type": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0], "material": "glass"}
+    scene = {
+        "materials": {"glass": {"density": 2500.0, "young_modulus": 2e7, "poisson_ratio": 0.2}},
+        "particles": {
+            "type": "explicit",
+            "material": "glass",
+            "particles": [{"position": [0.0, 0.0, 1e-3], "radius": 1e-3, **held}],
+        },
+        "contacts": {"law": "hertz_mindlin", "pairs": {"default": {"restitution": 0.3, "sliding_friction": 0.5}}},
+        "walls": {"plate": wall, "ground": ground},
+        "time": {"end": {"time": 0.04}},
+    }
+    return [text for text in concerns(build_scene(from_mapping(scene))) if "walls.plate" in text]
+
+
+def test_bodies_that_pass_through_held_particles_are_named() -> None:
+    for motion in ("rigid_body", "free"):
+        (text,) = told(motion=motion, fixed=True)
+        assert "1 particles are fixed or have a prescribed velocity" in text
+    assert told() == told(motion="", fixed=True) == []
+
+
+def test_a_centre_far_outside_its_shape_is_pointed_out() -> None:
+    (text,) = told(centre=(1.0, 0.0, 0.0))
+    assert "its centre of mass lies 0.995 m away from its shape, which is 0.0128 m long" in text
+    assert told(centre=(5e-3, 4e-3, 8e-3)) == []
