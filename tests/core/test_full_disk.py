@@ -87,7 +87,7 @@ def test_a_full_disk_ends_the_run_in_one_sentence_and_resumes_to_the_same_bytes(
     assert_same_bytes(whole, folder)
 
 
-@pytest.mark.parametrize("share", [0.8, 0.9, 0.999])
+@pytest.mark.parametrize("share", [0.8, pytest.param(0.9, marks=pytest.mark.long), 0.999])
 def test_wherever_a_file_is_refused_the_run_goes_on_to_the_same_bytes(
     scene: Path, whole: Path, tmp_path: Path, share: float
 ) -> None:
@@ -105,7 +105,7 @@ def test_wherever_a_file_is_refused_the_run_goes_on_to_the_same_bytes(
     assert_same_bytes(whole, folder)
 
 
-@pytest.mark.parametrize("most", [0, 2000, 20_000, 100_000])
+@pytest.mark.parametrize("most", [0, *(pytest.param(size, marks=pytest.mark.long) for size in (2000, 20_000)), 100_000])
 def test_without_room_for_the_first_checkpoint_the_run_is_simply_started_again(
     scene: Path, whole: Path, tmp_path: Path, most: int
 ) -> None:
