@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from clast.calibration.alone import alone
 from clast.calibration.config import CalibrationConfig
 from clast.calibration.identify import Identified, identify
 from clast.calibration.layout import ASKED
+from clast.calibration.one_thread import one_thread
 from clast.calibration.proposal import misfit, next_points, optimum
 from clast.calibration.responses import Goal, Response, goals, respond
 from clast.calibration.surrogate import Surrogate, fit
@@ -113,7 +113,7 @@ class Fitting:
         except ValueError as error:
             raise self.config.problem(("parameters", name), str(error)) from None
 
-    @alone()
+    @one_thread()
     def fit(self) -> Fit:
         """Run all points of the budget and return what they say.
 

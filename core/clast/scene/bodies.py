@@ -32,9 +32,9 @@ def _oddities(scene: Scene, wall: WallChoice) -> Iterator[str]:
             f"{held} particles are fixed or have a prescribed velocity: they push other particles, but no wall, and "
             "this one passes through them; let it meet particles that are free"
         )
-    points, _ = wall.shape.part.mesh(wall.shape.params, 1.0)
-    low, high = points.min(axis=0), points.max(axis=0)
     if wall.pivot is not None:
+        points, _ = wall.shape.part.mesh(wall.shape.params, 1.0)
+        low, high = points.min(axis=0), points.max(axis=0)
         away = np.linalg.norm(np.maximum(np.maximum(low - wall.pivot, np.asarray(wall.pivot) - high), 0.0))
         size = np.linalg.norm(high - low)
         if away > size:

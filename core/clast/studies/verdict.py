@@ -135,7 +135,7 @@ def same(expectation: Expectation, rows: list[Row], every: list[Row]) -> tuple[s
         return OPEN, "fewer than two points have results"
     away = _largest_distance(data, point, labels) / scale
     told = f"the point farthest from the mean of all differs by {away:.1%}, {len(labels)} points, {len(data)} runs"
-    told += f", up to {100.0 * expectation.up_to:.4g} % strain" if expectation.up_to is not None else ""
+    told += f", cut at {100.0 * expectation.up_to:.4g} % strain" if expectation.up_to is not None else ""
     if len(data) == len(labels):
         return (REPRODUCED if away <= expectation.within else OPEN), f"{told}; no repeats to tell scatter from"
     chance = _chance(data, repeat, point, labels)

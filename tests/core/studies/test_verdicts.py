@@ -86,7 +86,7 @@ def test_curves_are_compared_as_far_as_asked() -> None:
     assert verdict(Table(rows), **same, up_to=0.3) == NOT_REPRODUCED  # no curve goes so far
     assert verdict(Table(rows), **same, up_to=0.1) == REPRODUCED
     assert verdict(Table(rows), **same, up_to=0.12) == NOT_REPRODUCED
-    assert "12 runs, up to 10 % strain" in evidence(Table(rows), **same, up_to=0.1)
+    assert "12 runs, cut at 10 % strain" in evidence(Table(rows), **same, up_to=0.1)
 
 
 def test_points_are_compared_within_repeats_which_share_their_seeds() -> None:

@@ -8,7 +8,7 @@ from importlib import import_module
 
 
 @contextmanager
-def alone() -> Iterator[None]:
+def one_thread() -> Iterator[None]:
     """Let one thread do all that libraries of linear algebra are asked for.
 
     A fit of a Gaussian process to a dozen points asks thousands of times for microseconds of work, while runs keep the
