@@ -19,7 +19,7 @@ from clast.engine.runaways import runaways
 from clast.engine.state import Floats, World
 from clast.engine.tables import box_now, slot_view, take_out
 from clast.engine.timeline import Span, Timeline
-from clast.errors import RunError
+from clast.errors import RefusedError, RunError
 from clast.maths.box import Box
 from clast.scene.compression import Gauge
 from clast.scene.neighbour_lists import NeighbourLists
@@ -265,13 +265,17 @@ class Simulation:
         return ledger
 
     def _stop_for(self, complaint: str | None) -> None:
-        if complaint is not None:
-            laws = foreign_laws(self.config)
-            raise RunError(
-                f"stopped at step {self.step} (t = {self.time:.4g} s), where the numbers cannot be trusted any more: "
-                f"{complaint}. The step is {self.dt:.4g} s, the limit at the start {self.limits.stable:.4g} s: take a "
-                f"smaller time.step, or look for overlapping or very stiff parts with 'clast check --build'{laws}"
-            )
+        if complaint is None:
+            return
+        advice = (
+            f"{complaint}. The step is {self.dt:.4g} s, the limit at the start {self.limits.stable:.4g} s: take a "
+            "smaller time.step, let bodies meet more slowly, or look for overlapping or very stiff parts with 'clast "
+            f"check --build'{foreign_laws(self.config)}"
+        )
+        if self.step == 0:
+            raise RefusedError(f"the numbers of this scene cannot be trusted from its start on: {advice}")
+        where = f"stopped at step {self.step} (t = {self.time:.4g} s)"
+        raise RunError(f"{where}, where the numbers cannot be trusted any more: {advice}")
 
     def _remove_leavers(self) -> None:
         particles, bonds = self.world.particles, self.world.bonds

@@ -16,6 +16,7 @@ from clast.forecast import duration, run_seconds, time_concerns
 from clast.forecast_results import size_concerns
 from clast.results.in_words import summary_rows
 from clast.scene.concerns import concerns
+from clast.scene.swift_walls import swift_walls
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
 
@@ -111,7 +112,9 @@ class Lines(Listener):
                 self.say(line)
         seconds = run_seconds(simulation.config, len(scene.radius), len(scene.ends), left)
         slow = time_concerns(simulation.config, left, seconds)
-        for line in (*slow, *size_concerns(simulation.config, len(scene.radius), len(scene.ends))):
+        smallest = float(simulation.scene.radius.min())
+        swift = swift_walls(simulation.config, smallest, simulation.dt, simulation.last_step)
+        for line in (*swift, *slow, *size_concerns(simulation.config, len(scene.radius), len(scene.ends))):
             self.say(line)
         self.last = time.monotonic()
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from clast.errors import RefusedError, RunError
 from clast.results import checkpoint, curves, summary
-from clast.results.reading import RESULTS_FILE, open_results
+from clast.results.reading import CONFIG_FILE, RESULTS_FILE, open_results
 
 FULL = (errno.ENOSPC, errno.EDQUOT)
 """What a disk says that has no room: another folder name is no remedy, so the input is not what is wrong."""
@@ -21,8 +21,8 @@ FULL = (errno.ENOSPC, errno.EDQUOT)
 def run_folder(folder: Path, resume: bool) -> Iterator[bool]:
     """Make the folder of a run and keep other runs out of it; yield whether there is a run in it to go on with.
 
-    A run that ended before its first checkpoint has nothing to go on with or to lose: it is begun anew. A folder in
-    which nothing was written is removed again.
+    A run that ended before its first checkpoint has nothing to go on with or to lose: it is begun anew, and a folder
+    that was made for it is removed again.
 
     Raises
     ------
@@ -38,9 +38,11 @@ def run_folder(folder: Path, resume: bool) -> Iterator[bool]:
         with locked(folder):
             yield _goes_on(folder, resume)
     finally:
-        if made:
+        if made and not checkpoint.exists(folder):
             with suppress(OSError):
-                folder.rmdir()  # only when nothing was written
+                for name in (RESULTS_FILE, CONFIG_FILE):
+                    (folder / name).unlink(missing_ok=True)
+                folder.rmdir()  # only when nothing else was written
 
 
 def _goes_on(folder: Path, resume: bool) -> bool:
