@@ -97,7 +97,7 @@ def finish_axes(upper: Any, lower: Any | None) -> None:
     """Label the axes, start them at zero and set the legend."""
     upper.set_ylabel("stress [MPa]")
     upper.set_ylim(bottom=0.0)
-    upper.margins(x=0.0)
+    upper.margins(x=0.015)  # room for the caps of error bars at the right
     upper.set_xlim(left=0.0)
     upper.grid(color="#e4e7eb", linewidth=0.7)
     upper.set_axisbelow(True)
@@ -129,6 +129,7 @@ def _mark_peak(axes: Any, run: Run) -> None:
     if top.stress <= 0.0:
         return  # nothing pressed on the upper wall
     percent, stress = 100.0 * top.strain, top.stress / 1e6
+    name = "highest so far" if run.summary.get("peak_inside_run") is False else "peak"
     # the value stands in the legend, where no curve or error bar can cover it
     axes.plot(
         percent,
@@ -139,6 +140,6 @@ def _mark_peak(axes: Any, run: Run) -> None:
         markerfacecolor="white",
         markeredgecolor=CURVE_COLOUR,
         markeredgewidth=1.5,
-        label=f"peak: {stress:.2f} MPa at {percent:.1f} % strain",
+        label=f"{name}: {stress:.2f} MPa at {percent:.1f} % strain",
         zorder=5,
     )
