@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from clast.engine.records import width
+from clast.parts.body_force import BodyForce
 from clast.parts.bond_kinematics import BondKinematics
 from clast.parts.bond_model import BondModel
 from clast.parts.contact_law import ContactLaw, Features
 from clast.parts.damping import Damping
 from clast.parts.integrator import Integrator
+from clast.parts.motion import Motion
 from clast.parts.rolling_resistance import RollingResistance
-from clast.parts.wall import BodyForce, Motion, Wall
+from clast.parts.wall import Wall
 
 TURNED = "turned"
 """Crack mode of a bond whose ends moved beyond what its kinematics can measure."""

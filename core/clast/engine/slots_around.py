@@ -13,7 +13,7 @@ COURSE = [
     "time = now - walls.begun[w]",
 ]
 
-MOVES = ("velocity", "way", "answer", "start", "spin", "answer_spin", "start_spin")
+MOVES = ("velocity", "way", "answer", "start", "spin", "answer_spin", "start_spin", "inverse_mass")
 
 
 def walls_text(plan: Blueprint) -> str:
@@ -50,7 +50,16 @@ def _motions(plan: Blueprint) -> list[str]:
         dispatch("wall_velocity", "walls, w, now, span", known, "ZERO", COURSE),
         dispatch("wall_answer", "walls, w, now, pressed", answers, "ZERO", [*COURSE, "span = pressed.span"]),
         *_spins(plan),
+        dispatch("wall_inverse_mass", "walls, w, pushed", _inverse_masses(plan), "0.0", COURSE[:1]),
     ]
+
+
+def _inverse_masses(plan: Blueprint) -> list[str]:
+    told = []
+    for k, motion in enumerate(plan.motions):
+        course = construct_long(motion.Course, f"Course{k}")
+        told.append(f"inverse_mass_{k}({course}, pushed)" if motion.inverse_mass else "0.0")
+    return [*told, "0.0"]
 
 
 def _spins(plan: Blueprint) -> list[str]:

@@ -115,6 +115,7 @@ class Walls(NamedTuple):
     ``pressing`` (w,) sums up in N how hard contacts press along their normals, where a scene has walls that are not
     flat; ``lists`` holds what shapes and courses have of any length. ``begun`` (w,) is when the present stage of each
     wall's motion began in s, ``stage`` (w, 2) its number and that of the sample at which it began.
+    ``answers`` (w,) is 1 for walls that forces move at some stage, so that particles touch them that nothing moves.
     ``slots`` (w,) is the most contacts of a particle with each wall, ``places`` (2 slots + 1, 4) room to find them, and
     ``crowded`` (w,) is 1 for walls that a particle touched in more places.
     """
@@ -137,6 +138,7 @@ class Walls(NamedTuple):
     lists: Floats
     begun: Floats
     stage: Integers
+    answers: Bytes
     slots: Integers
     places: Floats
     crowded: Bytes
@@ -186,7 +188,7 @@ class Numbers(NamedTuple):
     fade: float  # share of its load that a breaking bond loses each step
     first_step: int  # step from which the present time step is taken
     first_time: float  # its time in s
-    mass: float  # of all particles that forces can move, in kg
+    mass: float  # of all particles, in kg
     late: float  # what the time since the forces before is more than usual in that step, in s
     early: float  # and what it is less than walls were told, that keep their velocities for it
 

@@ -14,16 +14,18 @@ from clast.plugins.nearest import suggestion
 from clast.plugins.registered import Failure, Registered, Source
 
 if TYPE_CHECKING:
+    from clast.parts.body_force import BodyForce
     from clast.parts.bond_kinematics import BondKinematics
     from clast.parts.bond_model import BondModel
     from clast.parts.contact_law import ContactLaw
     from clast.parts.damping import Damping
     from clast.parts.generator import Generator
     from clast.parts.integrator import Integrator
+    from clast.parts.motion import Motion
     from clast.parts.neighbour_search import NeighbourSearch
     from clast.parts.rolling_resistance import RollingResistance
     from clast.parts.stop import Stop
-    from clast.parts.wall import BodyForce, Motion, Wall
+    from clast.parts.wall import Wall
     from clast.parts.writer import Writer
 
 KINDS = (

@@ -14,25 +14,19 @@ def odd_bodies(scene: Scene) -> list[str]:
     """Return a sentence for each wall that answers to forces but passes through particles, or turns about far away."""
     config = scene.config
     return [
-        config.remark(("walls", name), text)
-        for name, wall in config.walls.items()
-        if _answers(wall)
-        for text in _oddities(scene, wall)
+        config.remark(("walls", name), text) for name, wall in config.walls.items() for text in _oddities(scene, wall)
     ]
-
-
-def _answers(wall: WallChoice) -> bool:
-    return any(each.motion.part.answer is not None or each.motion.part.answer_spin is not None for each in wall.stages)
 
 
 def _oddities(scene: Scene, wall: WallChoice) -> Iterator[str]:
     held = int(scene.prescribed.sum())
-    if held and scene.config.contacts is not None:
-        yield (
-            f"{held} particles are fixed or have a prescribed velocity: they push other particles, but no wall, and "
-            "this one passes through them; let it meet particles that are free"
-        )
-    if wall.pivot is not None:
+    for motion in (stage.motion for stage in wall.stages):
+        if held and scene.config.contacts is not None and motion.part.answer and motion.part.inverse_mass is None:
+            yield (
+                f"{held} particles are fixed or have a prescribed velocity, and the motion {motion.name!r} does not "
+                "say how it gives way to a push (inverse_mass): the wall passes through them"
+            )
+    if wall.pivot is not None and any(stage.motion.part.answer is not None for stage in wall.stages):
         points, _ = wall.shape.part.mesh(wall.shape.params, 1.0)
         low, high = points.min(axis=0), points.max(axis=0)
         away = np.linalg.norm(np.maximum(np.maximum(low - wall.pivot, np.asarray(wall.pivot) - high), 0.0))

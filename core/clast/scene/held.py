@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
 from clast.maths.vec3 import ZERO, Vec
-from clast.parts.wall import Pressed
+from clast.parts.motion import Pressed
 from clast.scene.plan import wall_shapes
 from clast.scene.scene import Scene
 

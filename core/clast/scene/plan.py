@@ -89,7 +89,7 @@ def refuse_steering(config: SceneConfig) -> None:
 
 def step_share(scene: Scene) -> float:
     """Return the share of the stable step that the damping of motion and walls that give way leave."""
-    damping, mass = scene.config.damping, float(scene.mass[~scene.prescribed].sum())
+    damping, mass = scene.config.damping, float(scene.mass.sum())
     share = 1.0 if damping is None else float(damping.part.step_share(damping.params))
     for wall in scene.config.walls.values():
         share *= min([1.0, *(_share_left(stage.motion, mass, arm(wall)) for stage in wall.stages)])
@@ -100,6 +100,11 @@ def giving_way(wall: WallChoice) -> float:
     """Return how much a wall gives way to a push, wherever that is, as the inverse of a mass in 1/kg; 0 at rest."""
     share = min([1.0, *(_share_left(stage.motion, 1.0, arm(wall)) for stage in wall.stages)])
     return 1.0 / share**2 - 1.0  # of the step with a particle of 1 kg
+
+
+def wall_answers(wall: WallChoice) -> bool:
+    """Tell whether forces move a wall at some stage, so that it touches particles too that nothing moves."""
+    return any(stage.motion.part.inverse_mass is not None for stage in wall.stages)
 
 
 def _share_left(motion: Chosen, mass: float, reach: float) -> float:

@@ -11,7 +11,7 @@ from clast.engine.wall_frames import at_start
 from clast.maths.box import Box
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
-from clast.scene.plan import material_pairs
+from clast.scene.plan import material_pairs, wall_answers
 from clast.scene.repeats import check_repeats
 from clast.scene.scatter import multiplied, refuse_beyond_bounds, scatter_entries
 from clast.scene.scene import Scene
@@ -190,7 +190,7 @@ def _refuse_wall_overlaps(scene: Scene) -> None:
     near = near_walls(scene, scene.position, at_start(len(scene.config.walls)))
     for w, (name, wall) in enumerate(scene.config.walls.items()):
         here = near[near[:, 0] == w, 1]
-        here = here[~scene.prescribed[here]]
+        here = here if wall_answers(wall) else here[~scene.prescribed[here]]
         found = feet(wall.shape.part, wall.shape.params, scene.position[here], scene.radius[here])
         share = np.zeros(len(scene.radius))
         np.maximum.at(share, here[found.point], 1.0 - found.distance / scene.radius[here[found.point]])

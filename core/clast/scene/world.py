@@ -29,7 +29,7 @@ from clast.engine.tables import (
     particle_tables,
     repeated,
 )
-from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs
+from clast.scene.plan import applied_loads, bond_constants, damping_coefficients, material_pairs, wall_answers
 from clast.scene.scene import Scene, is_logarithmic, strain_rates
 from clast.scene.wall_rows import padded, wall_rows
 
@@ -107,7 +107,7 @@ def _numbers(scene: Scene, plan: Blueprint, uniforms: Floats, particles: Particl
         fade=1.0 / (1 + (config.bonds.fade_steps if config.bonds else 0)),
         first_step=0,
         first_time=0.0,
-        mass=float(scene.mass[~scene.prescribed].sum()),
+        mass=float(scene.mass.sum()),
         late=0.0,
         early=0.0,
     )
@@ -175,6 +175,7 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         centre=np.array(centres, float).reshape(-1, 3),
         lists=rows.lists,
         stage=np.zeros((len(chosen), 2), np.int64),
+        answers=np.array([wall_answers(wall) for wall in chosen], np.uint8),
         slots=slots,
         places=np.zeros((2 * int(slots.max(initial=1)) + 1, 4)),
         crowded=np.zeros(len(slots), np.uint8),

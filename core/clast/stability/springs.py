@@ -14,7 +14,7 @@ from clast.maths.box import Box, open_space
 from clast.parts.contact_law import ContactLaw
 from clast.scene.bonding import close_pairs
 from clast.scene.near_walls import near_walls
-from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs
+from clast.scene.plan import bond_stiffness, damping_coefficients, largest_reach, material_pairs, wall_answers
 from clast.scene.scene import Scene
 from clast.scene.world import overlaps_at_rest
 from clast.stability.response import Response, respond, rolling_response
@@ -68,15 +68,26 @@ class Bodies(NamedTuple):
 
 
 def bodies_at_start(scene: Scene) -> Bodies:
-    """Return the particles of a scene; prescribed ones have no inverse mass."""
-    per_mass = np.where(scene.prescribed, 0.0, 1.0 / scene.mass)
+    """Return the particles of a scene as they stand at its start."""
+    per_mass = np.where(counts_as_held(scene), 0.0, 1.0 / scene.mass)
     return Bodies(scene.position, scene.radius, per_mass, 2.5 * per_mass / scene.radius**2, scene.box)
+
+
+def counts_as_held(scene: Scene) -> NDArray[np.bool_]:
+    """Return which particles, (n,), have no inverse mass in limits of the step: prescribed ones.
+
+    But where walls give way that touch them, they count as free. What a wall with the mass M gives way by, ΣK/M, is
+    then at most Σm/M times the largest K/m, for which the share of the step stands that such motions leave.
+    """
+    answering = any(wall_answers(wall) for wall in scene.config.walls.values())
+    return np.zeros(len(scene.radius), bool) if answering else scene.prescribed
 
 
 def springs_at_start(scene: Scene, plan: Blueprint) -> Springs:
     """Return everything that holds or touches at the start of a scene."""
     bodies = bodies_at_start(scene)
     pairs = close_pairs(scene.position, scene.radius, 0.0, scene.box)[0]
+    pairs = pairs[~scene.prescribed[pairs].all(axis=1)]
     everything = np.ones(len(scene.ends), bool)
     still = at_start(len(scene.config.walls))
     near = near_walls(scene, scene.position, still)

@@ -22,6 +22,7 @@ from clast.stability.springs import (
     bond_springs,
     contact_responses,
     contact_springs,
+    counts_as_held,
     drag_springs,
     joined,
     wall_springs,
@@ -69,6 +70,7 @@ class StepKeeper:
         self.rule = rule if isinstance(rule, StepRule) and rule.rule == "spectral" else None
         self.tolerated = 0.5 * (1.0 + min(self.rule.factor, 1.0)) if self.rule else 1.0
         self.every = max(EVERY, PARTICLE_STEPS // len(scene.radius))
+        self.freed = scene.prescribed & ~counts_as_held(scene)
         self.unstable = scene.config.time.allow_unstable
         self.allowance = -1.0
         self.estimates = 0
@@ -141,6 +143,9 @@ class StepKeeper:
         radius, per_mass, per_inertia = (
             column.copy() for column in (pose[:, RADIUS], body[:, INVERSE_MASS], body[:, INVERSE_INERTIA])
         )
+        freed = self.freed & (world.particles.present != 0)
+        per_mass[freed] = 1.0 / self.scene.mass[freed]
+        per_inertia[freed] = 2.5 * per_mass[freed] / radius[freed] ** 2
         position = np.ascontiguousarray(pose[:, X : X + 3])
         return Bodies(position, radius, per_mass, per_inertia, box_now(self.scene.box, world.particles))
 

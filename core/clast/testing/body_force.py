@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from clast.maths.vec3 import ZERO, Vec, add, scale
-from clast.parts.wall import BodyForce
+from clast.parts.body_force import BodyForce
 from clast.testing.bits import same_bits
 from clast.testing.claim import Claim, claim, must
 from clast.testing.draws import numbers, vectors

@@ -9,10 +9,10 @@ import numpy as np
 
 from clast.maths.rotation import IDENTITY, turn
 from clast.maths.vec3 import Vec
-from clast.parts.wall import Motion, Pressed, Turned
+from clast.parts.motion import Motion, Pressed, Pushed, Turned
 from clast.testing.bits import same_bits
 from clast.testing.claim import Claim, claim, must
-from clast.testing.draws import numbers, vectors
+from clast.testing.draws import directions, negated, numbers, rotations, vectors
 
 LONG, SPAN, MASS = 10.0, 1e-6, 1e-6
 PIECES = 400
@@ -32,6 +32,7 @@ def claims(motion: Motion, params: Any) -> list[Claim]:
         ),
         *_of_ways(motion, course),
         *_of_spins(motion, params, course),
+        *_of_pushes(motion, course),
         claim("compiled code gives the same bits as plain Python", lambda: _compiled_alike(motion, course)),
     ]
 
@@ -57,6 +58,27 @@ def _of_spins(motion: Motion, params: Any, course: Any) -> list[Claim]:
             vectors(1.0),
         )
     ]
+
+
+def _of_pushes(motion: Motion, course: Any) -> list[Claim]:
+    if motion.inverse_mass is None:
+        return []
+    return [
+        claim(
+            "how it gives way is a number, not below 0, whichever way a contact pushes along a line",
+            lambda normal, arm, q: _gives_way(motion, course, Pushed(normal, arm, q, MASS)),
+            directions(),
+            vectors(0.1),
+            rotations(),
+        )
+    ]
+
+
+def _gives_way(motion: Motion, course: Any, pushed: Pushed) -> None:
+    assert motion.inverse_mass is not None
+    told = [motion.inverse_mass(course, pushed._replace(normal=n)) for n in (pushed.normal, negated(pushed.normal))]
+    good = all(math.isfinite(each) and each >= 0.0 for each in told) and math.isclose(*told, rel_tol=1e-9)
+    must(good, lambda: f"for {pushed} it is {told[0]} /kg, pushed the other way {told[1]} /kg")
 
 
 def spin(motion: Motion, course: Any, time: float, moment: Vec, before: Vec) -> Vec:
@@ -100,12 +122,13 @@ def _sound(motion: Motion, course: Any, time: float, force: Vec, before: Vec) ->
 
 
 def _compiled_alike(motion: Motion, course: Any) -> None:
-    ahead, answer, way, known_spin, answer_spin = (
+    ahead, answer, way, known_spin, answer_spin, inverse_mass = (
         motion.velocity,
         motion.answer,
         motion.way,
         motion.spin,
         motion.answer_spin,
+        motion.inverse_mass,
     )
 
     def known(times: Any, forces: Any, course: Any, out: Any) -> None:
@@ -133,8 +156,17 @@ def _compiled_alike(motion: Motion, course: Any) -> None:
             told = Turned((f[0], f[1], f[2]), q, (f[3], f[4], f[5]), SPAN, SPAN)
             out[k, 0], out[k, 1], out[k, 2] = answer_spin(course, times[k], told)  # type: ignore[misc]
 
+    def pushed(times: Any, forces: Any, course: Any, out: Any) -> None:
+        for k in range(len(times)):
+            f = forces[k]
+            q = turn(IDENTITY, (f[5], f[0], f[1]), 0.1)
+            told = Pushed((f[0], f[1], f[2]), (f[3], f[4], f[5]), q, MASS)
+            out[k, 0] = inverse_mass(course, told)  # type: ignore[misc]
+            out[k, 1] = out[k, 2] = 0.0
+
     draw = np.random.default_rng(13)
-    sweeps = (known, ahead), (answering, answer), (going, way), (turning, known_spin), (turned, answer_spin)
-    for sweep, function in sweeps:
+    moves = (known, ahead), (answering, answer), (going, way)
+    turns = (turning, known_spin), (turned, answer_spin)
+    for sweep, function in (*moves, *turns, (pushed, inverse_mass)):
         if function is not None:
             same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)

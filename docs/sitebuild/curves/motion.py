@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from clast.config.describe import parameters
 from clast.maths.vec3 import ZERO, Vec, add, scale
+from clast.parts.motion import Motion, Pressed
 from clast.parts.params import Params
-from clast.parts.wall import Motion, Pressed
 
 Floats = NDArray[np.float64]
 SPRING, MASS, ANSWERING = 1e4, 1e-3, 0.05

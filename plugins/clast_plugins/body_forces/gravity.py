@@ -9,8 +9,8 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import AccelerationVector
 from clast.maths.vec3 import Vec, scale
+from clast.parts.body_force import BodyForce
 from clast.parts.params import Params
-from clast.parts.wall import BodyForce
 from clast.plugins.registry import Registry
 
 

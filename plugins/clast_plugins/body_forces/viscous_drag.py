@@ -12,8 +12,8 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import Density, SpinVector, Unit, VelocityVector
 from clast.maths.vec3 import ZERO, Vec, norm, scale, sub
+from clast.parts.body_force import BodyForce
 from clast.parts.params import Params
-from clast.parts.wall import BodyForce
 from clast.plugins.registry import Registry
 
 Floats = NDArray[np.float64]

@@ -9,8 +9,8 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import VelocityVector
 from clast.maths.vec3 import Vec
+from clast.parts.motion import Motion
 from clast.parts.params import Params
-from clast.parts.wall import Motion
 from clast.plugins.registry import Registry
 
 

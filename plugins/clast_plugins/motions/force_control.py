@@ -11,8 +11,8 @@ from clast import hookimpl
 from clast.config.problems import wrong
 from clast.config.quantities import Direction, Force, Length, Stress, Time, Velocity
 from clast.maths.vec3 import Vec, dot, norm, scale
+from clast.parts.motion import Motion, Pressed, Pushed
 from clast.parts.params import Params
-from clast.parts.wall import Motion, Pressed
 from clast.plugins.registry import Registry
 
 INERTIA = 10.0
@@ -130,6 +130,17 @@ def answer(course: Course, time: float, pressed: Pressed) -> Vec:
     return scale(min(max(speed, -course.max_velocity), course.max_velocity), course.direction)
 
 
+def inverse_mass(course: Course, pushed: Pushed) -> float:
+    """Return how a push along a normal moves the wall, in 1/kg, but for its dashpot.
+
+    >>> up = Pushed((0.0, 0.0, 1.0), arm=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), mass=0.2)
+    >>> inverse_mass(Course((0.0, 0.0, -1.0), force=8.0, max_velocity=0.1, ramp=0.0), up)
+    0.5
+    """
+    along = dot(course.direction, pushed.normal)
+    return along * along / (INERTIA * pushed.mass)
+
+
 @hookimpl
 def clast_register(registry: Registry) -> None:
     """Offer force control."""
@@ -141,5 +152,6 @@ def clast_register(registry: Registry) -> None:
             Course=Course,
             course=course,
             answer=answer,
+            inverse_mass=inverse_mass,
         ),
     )

@@ -10,8 +10,8 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import AccelerationVector, Direction, ForceVector, Mass, VelocityVector
 from clast.maths.vec3 import ZERO, Vec, add, dot, norm, scale
+from clast.parts.motion import Motion, Pressed, Pushed
 from clast.parts.params import Params
-from clast.parts.wall import Motion, Pressed
 from clast.plugins.registry import Registry
 
 
@@ -32,9 +32,9 @@ class Free(Params):
     ------
     Translation only; ``rigid_body`` turns. Other walls do not touch it. Between two force evaluations it keeps one
     velocity, as particles do: second order, and momentum is exchanged with particles without loss. Dashpots of contacts
-    take every wall as endlessly heavy, so light particles calm a heavy lid but slowly. The stable step is that with
-    walls at rest, times 1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The
-    ledger counts the wall as outside: its own energy is not in it.
+    know its mass. The stable step is that with walls at rest and particles that are held as if they were not, times
+    1/√(1 + Σm/M), m of all particles: safe for any M, and little less where the wall is heavy. The ledger counts the
+    wall as outside: its own energy is not in it.
 
     Source
     ------
@@ -94,6 +94,16 @@ def answer(course: Course, time: float, pressed: Pressed) -> Vec:
     return held_to(course.along, add(pressed.velocity, scale(0.5 * (pressed.since + pressed.span), acceleration)))
 
 
+def inverse_mass(course: Course, pushed: Pushed) -> float:
+    """Return how a push along a normal moves the wall, in 1/kg.
+
+    >>> inverse_mass(Course(2.0, ZERO, ZERO, (0.0, 0.0, 1.0)), Pushed((0.6, 0.0, 0.8), ZERO, (1.0, 0.0, 0.0, 0.0), 1.0))
+    0.32000000000000006
+    """
+    moved = held_to(course.along, pushed.normal)
+    return dot(moved, moved) / course.mass
+
+
 def step_share(course: Course, mass: float, arm: float) -> float:
     """Return the share of the stable step that is left when particles of a mass in kg touch a wall that gives way."""
     return 1.0 / sqrt(1.0 + mass / course.mass)
@@ -111,6 +121,7 @@ def clast_register(registry: Registry) -> None:
             course=course,
             start=start,
             answer=answer,
+            inverse_mass=inverse_mass,
             step_share=step_share,
         ),
     )

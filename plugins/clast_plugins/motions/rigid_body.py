@@ -20,9 +20,9 @@ from clast.config.quantities import (
     VelocityVector,
 )
 from clast.maths.rotation import Quat, matrix, rotate, rotate_back, turn
-from clast.maths.vec3 import ZERO, Vec, add, dot, norm, scale, sub
+from clast.maths.vec3 import ZERO, Vec, add, cross, dot, norm, scale, sub
+from clast.parts.motion import Motion, Pressed, Pushed, Turned
 from clast.parts.params import Params
-from clast.parts.wall import Motion, Pressed, Turned
 from clast.plugins.registry import Registry
 from clast_plugins.motions.free import held_to
 
@@ -56,10 +56,10 @@ class RigidBody(Params):
     The body's principal axes are those of the scene at the start: turn the shape so that they are. A shape that ends is
     needed, and other walls do not touch it. Momentum and, about a fixed point, angular momentum are exchanged with
     particles without loss but rounding, with turns up to 0.1 rad a step; beyond 0.5 rad a run ends. The energy of a
-    body that tumbles swings to second order in its turn a step. Dashpots of contacts take every wall as endlessly
-    heavy. The stable step is that with walls at rest, times 1/√(1 + Σm (1/M + a²/I_min)), m of all particles, a the
-    farthest place of the surface: safe for any M and I. The ledger counts the body as outside: its own energy is not in
-    it.
+    body that tumbles swings to second order in its turn a step. Dashpots of contacts know how it gives way where it is
+    pushed. The stable step is that with walls at rest and particles that are held as if they were not, times
+    1/√(1 + Σm (1/M + a²/I_min)), m of all particles, a the farthest place of the surface: safe for any M and I. The
+    ledger counts the body as outside: its own energy is not in it.
 
     Source
     ------
@@ -187,6 +187,21 @@ def answer_spin(course: Course, time: float, turned: Turned) -> Vec:
     return spin
 
 
+def inverse_mass(course: Course, pushed: Pushed) -> float:
+    """Return how a push along a normal moves the place that is pushed along it, in 1/kg: it moves and turns the body.
+
+    >>> rod = Course(2.0, (1.0, 1.0, 1.0), ZERO, ZERO, ZERO, ZERO, ZERO, ZERO)
+    >>> inverse_mass(rod, Pushed((0.0, 0.0, 1.0), (3.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), 1.0))
+    9.5
+    """
+    moved, lever = held_to(course.along, pushed.normal), cross(pushed.arm, pushed.normal)
+    turned = spin_of(course.inertia, pushed.orientation, lever)
+    if dot(course.about, course.about) > 0.0:
+        about = momentum(course.inertia, pushed.orientation, course.about)
+        turned = scale(dot(course.about, lever) / dot(course.about, about), course.about)
+    return dot(moved, moved) / course.mass + dot(lever, turned)
+
+
 def step_share(course: Course, mass: float, arm: float) -> float:
     """Return the share of the stable step that is left when particles of a mass in kg touch a body that gives way."""
     return 1.0 / sqrt(1.0 + mass * (1.0 / course.mass + arm * arm / min(course.inertia)))
@@ -209,6 +224,7 @@ def clast_register(registry: Registry) -> None:
             course=course,
             start=start,
             answer=answer,
+            inverse_mass=inverse_mass,
             start_spin=start_spin,
             answer_spin=answer_spin,
             pivot=pivot,

@@ -10,8 +10,8 @@ from pydantic import Field
 from clast import hookimpl
 from clast.config.quantities import Angle, Direction, Frequency, Number, Point
 from clast.maths.vec3 import ZERO, Vec, norm, scale
+from clast.parts.motion import Motion
 from clast.parts.params import Params
-from clast.parts.wall import Motion
 from clast.plugins.registry import Registry
 
 

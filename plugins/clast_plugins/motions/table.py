@@ -15,8 +15,8 @@ from clast.config.problems import wrong
 from clast.config.quantities import Direction, Length, Time, Velocity
 from clast.errors import ConfigError
 from clast.maths.vec3 import Vec, norm, scale
+from clast.parts.motion import Motion
 from clast.parts.params import Params
-from clast.parts.wall import Motion
 from clast.plugins.registry import Registry
 from clast_plugins.motions.measured import Rows, read_course
 

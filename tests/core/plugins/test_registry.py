@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 
 from clast.errors import PluginError
+from clast.parts.body_force import BodyForce
 from clast.parts.params import Params
-from clast.parts.wall import BodyForce
 from clast.plugins.registered import Source
 from clast.plugins.registry import KINDS, Registry
 

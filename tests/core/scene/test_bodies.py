@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from clast.building import build_scene
@@ -11,7 +12,9 @@ from clast.scene.concerns import concerns
 CENTRE = (0.0, 0.0, 4.15e-3)
 
 
-def told(centre: tuple[float, float, float] = CENTRE, motion: str = "rigid_body", **held: bool) -> list[str]:
+def told(
+    centre: tuple[float, float, float] = CENTRE, motion: str = "rigid_body", plugins: tuple[str, ...] = (), **held: bool
+) -> list[str]:
     """Return what is said of a plate above one sphere."""
     body: dict[str, Any] = {"mass": 6e-5, "gravity": [0.0, 0.0, -9.81]}
     if motion == "rigid_body":
@@ -20,6 +23,7 @@ def told(centre: tuple[float, float, float] = CENTRE, motion: str = "rigid_body"
     wall |= {"material": "glass"} | ({"motion": {"type": motion, **body}} if motion else {})
     ground = {"type": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0], "material": "glass"}
     scene = {
+        "plugins": list(plugins),
         "materials": {"glass": {"density": 2500.0, "young_modulus": 2e7, "poisson_ratio": 0.2}},
         "particles": {
             "type": "explicit",
@@ -33,11 +37,32 @@ def told(centre: tuple[float, float, float] = CENTRE, motion: str = "rigid_body"
     return [text for text in concerns(build_scene(from_mapping(scene))) if "walls.plate" in text]
 
 
-def test_bodies_that_pass_through_held_particles_are_named() -> None:
-    for motion in ("rigid_body", "free"):
-        (text,) = told(motion=motion, fixed=True)
-        assert "1 particles are fixed or have a prescribed velocity" in text
-    assert told() == told(motion="", fixed=True) == []
+SILENT = '''"""A wall that forces move, and whose motion says nothing of how it gives way."""
+
+from clast import hookimpl
+from clast.parts.motion import Motion
+from clast_plugins.motions.free import Course, Free, answer, course
+
+CLAST_API = 1
+
+
+class Light(Free):
+    """A lid."""
+
+
+@hookimpl
+def clast_register(registry):
+    registry.motion("light", Motion("a lid", Light, Course, course, answer=answer))
+'''
+
+
+def test_bodies_that_pass_through_held_particles_are_named(tmp_path: Path) -> None:
+    silent = tmp_path / "light.py"
+    silent.write_text(SILENT)
+    (text,) = told(motion="light", plugins=(str(silent),), fixed=True)
+    assert "1 particles are fixed or have a prescribed velocity, and the motion 'light' does not say" in text
+    assert told(motion="light", plugins=(str(silent),)) == []
+    assert told(fixed=True) == told(motion="free", fixed=True) == told(motion="", fixed=True) == []
 
 
 def test_a_centre_far_outside_its_shape_is_pointed_out() -> None:

@@ -13,8 +13,8 @@ from clast.config.scene import from_mapping
 from clast.engine.slots_text import slots_text
 from clast.errors import PluginError
 from clast.maths.vec3 import ZERO, scale
+from clast.parts.body_force import BodyForce
 from clast.parts.params import Params
-from clast.parts.wall import BodyForce
 from clast.plugins.discovery import discover
 from clast.scene.held import not_held
 from clast.scene.plan import blueprint

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from scipy.integrate import quad
 
 from clast.config.examples import example
-from clast.parts.wall import Motion, Pressed
+from clast.parts.motion import Motion, Pressed
 from clast.plugins.discovery import discover
 from clast.testing.kit import try_part
 from tests.support.strategies import numbers, vectors

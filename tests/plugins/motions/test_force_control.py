@@ -16,7 +16,7 @@ from clast.config.scene import from_mapping
 from clast.engine import chunks
 from clast.errors import ConfigError, PluginError
 from clast.maths.vec3 import ZERO
-from clast.parts.wall import Motion, Pressed
+from clast.parts.motion import Motion, Pressed
 from clast.results import checkpoint
 from clast_plugins.motions.force_control import Course, ForceControl, answer, course
 from tests.scenes import CRUSH, write

@@ -13,8 +13,8 @@ from clast.config.scene import SceneConfig, from_mapping, load
 from clast.errors import ConfigError, PluginError, RunError
 from clast.maths.rotation import IDENTITY, turn
 from clast.maths.vec3 import ZERO
+from clast.parts.motion import Motion, Pressed, Turned
 from clast.parts.params import Params
-from clast.parts.wall import Motion, Pressed, Turned
 from clast.plugins.discovery import discover
 from clast.results import checkpoint
 from clast.scene.compression import Gauge

@@ -76,7 +76,7 @@ from .slots import (
 from .stretching import stretch_box
 from .wall_frames import power_on_wall
 from .wall_places import place_on_wall
-from .wall_sweep import farthest, wall_constants, wall_reach, wall_touch
+from .wall_sweep import apart, farthest, wall_constants, wall_touch
 
 SINCE_FORCES = STAGES[len(STAGES) - 1].drift_after
 """Time since the last force evaluation when a step is over, as a fraction of the step."""
@@ -273,11 +273,11 @@ def wall_energy(
     w, k = pairs.wall[p], pairs.particle[p]
     near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
     radius = particles.pose[k, RADIUS]
-    if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
+    if apart(particles, walls, pairs, numbers, p, near):
         return 0.0
     lever = radius - numbers.lever * (radius - near.distance)
     held = pairs.touching[p] != 0
-    touch, share = wall_touch(particles, walls, k, w, near, lever, held, time)
+    touch, share = wall_touch(particles, walls, numbers, k, w, near, lever, held, time)
     history = fresh_history()
     if HISTORY > 0 and held:
         spin = 0.5 * dot(touch.spin_i, near.normal) * time

@@ -14,7 +14,7 @@ from .wall_frames import seen_from_wall
 
 @compiled
 def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: float, near: Bytes) -> None:
-    """Mark every movable particle that can come to touch a wall before lists go stale.
+    """Mark every particle that can come to touch a wall before lists go stale, where one of the two can be moved.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def near_walls(particles: Particles, walls: Walls, slack: Floats, wall_slack: fl
     if WALLS:
         for w in range(len(walls.shape_kind)):
             for k in range(len(particles.pose)):
-                if particles.present[k] == 0 or particles.body[k, INVERSE_MASS] == 0.0:
+                if particles.present[k] == 0 or not (walls.answers[w] or particles.body[k, INVERSE_MASS] > 0.0):
                     continue
                 x = seen_from_wall(walls, w, row(particles.pose, k, 0))
                 if reaches_wall(walls, w, x, particles.pose[k, RADIUS] + slack[k] + wall_slack):

@@ -32,7 +32,7 @@ from .slots import (
     row_constants,
 )
 from .wall_places import place_on_wall
-from .wall_sweep import farthest, wall_constants, wall_reach, wall_touch
+from .wall_sweep import apart, farthest, wall_constants, wall_touch
 
 FREE_LANES = max(HISTORY_BASE + HISTORY + 1, CONTACT_FREE + 1) * LANES
 
@@ -130,12 +130,12 @@ def write_wall_contact(world: World, p: int, time: float, place: int, output: Fl
     w, k = pairs.wall[p], pairs.particle[p]
     centre, radius = row(particles.pose, k, X), particles.pose[k, RADIUS]
     near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
-    if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
+    if apart(particles, walls, pairs, numbers, p, near):
         return False
     if place < len(output):
         n, lever = near.normal, radius - numbers.lever * (radius - near.distance)
         held = pairs.touching[p] != 0
-        touch, _ = wall_touch(particles, walls, k, w, near, lever, held, time)
+        touch, _ = wall_touch(particles, walls, numbers, k, w, near, lever, held, time)
         history = fresh_history()
         if HISTORY > 0 and held:
             spin = 0.5 * dot(touch.spin_i, n) * time

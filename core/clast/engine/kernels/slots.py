@@ -64,7 +64,7 @@ read_uniforms = read_reference = read_constants = read_damping = nothing
 read_kinematic_state = write_kinematic_state = read_bond_state = write_bond_state = nothing
 contact_load = contact_energy = contact_losses = contact_reach = read_contact_constants = row_constants = nothing
 read_history = write_history = carry_history = fresh_history = load_history = store_history = no_losses = nothing
-wall_nearest = wall_touches = wall_start = wall_velocity = wall_answer = nothing
+wall_nearest = wall_touches = wall_start = wall_velocity = wall_answer = wall_inverse_mass = nothing
 wall_start_spin = wall_spin = wall_answer_spin = nothing
 body_acceleration = body_load = nothing
 braking = steering = nothing

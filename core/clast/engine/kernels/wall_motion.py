@@ -8,7 +8,7 @@ from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Walls
 from clast.maths.rotation import turn
 from clast.maths.vec3 import ZERO, Vec, dot, sub
-from clast.parts.wall import Pressed, Turned
+from clast.parts.motion import Pressed, Turned
 
 from .lanes import row
 from .layout import ANGLE, ARM, WALL_Q, WALL_W, WALL_WORK

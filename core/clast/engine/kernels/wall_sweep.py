@@ -6,8 +6,10 @@ from typing import Any
 
 from clast.engine.compiler import inlined, routine
 from clast.engine.state import Floats, Numbers, Particles, WallPairs, Walls
+from clast.maths.rotation import IDENTITY
 from clast.maths.vec3 import ZERO, Vec, add, cross, dot, scale, sub
 from clast.parts.contact_law import NO_DRAG, ContactLoad, Touch
+from clast.parts.motion import Pushed
 from clast.parts.wall import Nearest
 
 from .contact_lane import kept_drag
@@ -30,6 +32,7 @@ from .layout import (
 )
 from .parting import energy_left, energy_let_go, jump_at_touch, reach_of, still
 from .slots import (
+    ANSWERING,
     CHOICES,
     CONTACT_LOSSES,
     CURVED_WALLS,
@@ -41,6 +44,7 @@ from .slots import (
     SPIN,
     TURNS,
     VELOCITY_FORCES,
+    WALLS_TURN,
     YIELDS,
     carry_history,
     contact_load,
@@ -49,9 +53,10 @@ from .slots import (
     load_history,
     row_constants,
     store_history,
+    wall_inverse_mass,
 )
 from .touching import share_since_touch
-from .wall_frames import from_centre, spin_of_wall, velocity_of_wall
+from .wall_frames import from_centre, orientation, spin_of_wall, velocity_of_wall
 from .wall_motion import book_wall_work
 from .wall_places import place_on_wall
 
@@ -81,8 +86,36 @@ def wall_constants(particles: Particles, walls: Walls, numbers: Numbers, k: int,
 
 
 @inlined
+def inverse_mass(particles: Particles, walls: Walls, numbers: Numbers, k: int, w: int, n: Vec, lever: float) -> float:
+    """Return 1/m* of particle k and wall w in 1/kg, which touch along n at a lever from the particle's centre."""
+    own: float = particles.body[k, INVERSE_MASS]
+    if ANSWERING:
+        arm = from_centre(walls, w, add(row(particles.pose, k, X), scale(lever, n)))
+        turned = orientation(walls, w) if WALLS_TURN else IDENTITY
+        own += wall_inverse_mass(walls, w, Pushed(n, arm, turned, numbers.mass))
+    return own
+
+
+@inlined
+def apart(particles: Particles, walls: Walls, pairs: WallPairs, numbers: Numbers, p: int, near: Nearest) -> bool:
+    """Tell whether wall pair p does not touch, or neither of the two gives way, so that nothing comes of it."""
+    w, k, lever = pairs.wall[p], pairs.particle[p], particles.pose[pairs.particle[p], RADIUS]
+    if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
+        return True
+    return ANSWERING and inverse_mass(particles, walls, numbers, k, w, near.normal, lever) == 0.0
+
+
+@inlined
 def wall_touch(
-    particles: Particles, walls: Walls, k: int, w: int, near: Nearest, lever: float, held: bool, dt: float
+    particles: Particles,
+    walls: Walls,
+    numbers: Numbers,
+    k: int,
+    w: int,
+    near: Nearest,
+    lever: float,
+    held: bool,
+    dt: float,
 ) -> tuple[Touch, float]:
     """Return the contact of particle k (i) with wall w (j), and the share of the way since touch.
 
@@ -111,7 +144,7 @@ def wall_touch(
         radius=radius,
         radius_i=radius,
         radius_j=0.0,
-        inverse_mass=body[k, INVERSE_MASS],
+        inverse_mass=inverse_mass(particles, walls, numbers, k, w, n, lever),
         inverse_inertia=body[k, INVERSE_INERTIA],
         moved=moved,
         turned=scale(dt, sub(spin_of_wall(walls, w), row(particles.twist, k, W))) if TURNS else ZERO,
@@ -185,7 +218,7 @@ def sweep_walls(
         w, k = pairs.wall[p], pairs.particle[p]
         near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
         radius = particles.pose[k, RADIUS]
-        if near.distance >= wall_reach(particles, walls, pairs, numbers, p):
+        if apart(particles, walls, pairs, numbers, p, near):
             if CONTACT_LOSSES and pairs.touching[p] != 0:
                 book_parting(walls, pairs, particles, numbers, p, near, book, dt)
             pairs.touching[p] = 0
@@ -193,7 +226,7 @@ def sweep_walls(
         n = near.normal
         lever = radius - numbers.lever * (radius - near.distance)
         held = pairs.touching[p] != 0
-        touch, share_moved = wall_touch(particles, walls, k, w, near, lever, held, dt)
+        touch, share_moved = wall_touch(particles, walls, numbers, k, w, near, lever, held, dt)
         history = fresh_history()
         if HISTORY > 0 and held:
             spin = 0.5 * dot(add(touch.spin_i, touch.spin_j), n) * dt

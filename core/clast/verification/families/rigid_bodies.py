@@ -1,4 +1,4 @@
-"""Rigid bodies: a plank that a ball strikes off its middle, and a block that tumbles."""
+"""Rigid bodies: a plank that a ball strikes off its middle, a board that strikes a held one, a block that tumbles."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from clast.verification.finding import Finding
 from clast.verification.reading import follow, position, velocity
 from clast.verification.sketch import Line, Sketch
 
-BALL, STRUCK, LOOK = 0, 10e-3, 20
-EXACT, SMOOTH = 1e-10, 2e-3
+BALL, HELD, STRUCK, LOOK = 0, 1, 10e-3, 20
+EXACT, SMOOTH, DAMPED = 1e-10, 2e-3, 1e-2
 
 
 def judge_struck(bench: Bench) -> Findings:
@@ -39,6 +39,24 @@ def judge_struck(bench: Bench) -> Findings:
     linear, angular = momenta(simulation) - before
     yield Finding("change of momentum, share of the ball's", 0.0, worst(linear) / (m * speed), EXACT, True)
     yield Finding("change of angular momentum, share", 0.0, worst(angular) / (x * m * speed), EXACT, True)
+
+
+def judge_held(bench: Bench) -> Findings:
+    """Let a board strike a ball that is held, off its middle."""
+    simulation = bench.start()
+    board = moving(simulation, "board")
+    x, y, _ = (simulation.scene.position[HELD] - np.array(board.centre)).tolist()
+    contacts = simulation.scene.config.contacts
+    pair = contacts.pair("glass", "wood") if contacts is not None else None
+    assert pair is not None
+    simulation.advance_to(round(STRUCK / simulation.dt))
+    speed = -board.velocity[2]
+    push = (1.0 + pair.restitution) * speed / (1.0 / board.mass + y**2 / board.inertia[0] + x**2 / board.inertia[1])
+    k = wall(simulation, "board")
+    flies, spin = float(simulation.world.walls.velocity[k, 2]), simulation.world.walls.twist[k, 3:].tolist()
+    yield Finding("middle of the board, m/s", push / board.mass - speed, flies, DAMPED)
+    yield Finding("board about x, rad/s", y * push / board.inertia[0], spin[0], DAMPED)
+    yield Finding("board about y, rad/s", -x * push / board.inertia[1], spin[1], DAMPED)
 
 
 def momenta(simulation: Simulation) -> Floats:
@@ -119,8 +137,8 @@ FAMILY = Family(
     "rigid_bodies",
     "Bodies that move and turn",
     "A ball strikes a loose plank off its middle, without friction: the two exchange one impulse, which the mass of "
-    "the plank and both of its moments of inertia share. A block that nothing touches turns over and over, as Euler's "
-    "equations have it.",
+    "the plank and both of its moments of inertia share. A board flies against a ball that is held, and keeps half of "
+    "the speed there. A block that nothing touches turns over and over, as Euler's equations have it.",
     (
         Case(
             "struck_plank",
@@ -129,6 +147,14 @@ FAMILY = Family(
             judge_struck,
             "one impulse: 2 v / (1/m + 1/M + y²/I_x + x²/I_y)",
             (needs.full_restitution,),
+        ),
+        Case(
+            "struck_ball",
+            "a board strikes a ball that is held, off its middle",
+            "rigid_bodies",
+            judge_held,
+            "one impulse: (1 + e) v / (1/M + y²/I_x + x²/I_y)",
+            (needs.losses,),
         ),
         Case(
             "tumbling_block",
