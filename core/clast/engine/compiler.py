@@ -9,12 +9,15 @@ from typing import Any, TypeVar, cast
 from numba import njit, types
 from numba.extending import typeof_impl
 
+from clast.engine.linking import LinkingCompiler
+
 F = TypeVar("F", bound=Callable[..., Any])
 
-STRICT = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-INNER = STRICT | {"no_cpython_wrapper": True, "_nrt": False}
+STRICT: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+INNER = STRICT | {"no_cpython_wrapper": True, "_nrt": False, "pipeline_class": LinkingCompiler}
 """For functions that only compiled code calls. Doors for Python and C in each of them would take a third of the whole
-time of compiling, counting who holds which table a sixth: they make no tables, and the entries hold all they are given.
+time of compiling, counting who holds which table a sixth, machine code of their own a tenth: they make no tables, the
+entries hold all they are given, and they are linked into the entries.
 """
 OF_PART = {"forceinline": True, "_nrt": True}
 """For the plain functions of parts, which may make tables of their own."""

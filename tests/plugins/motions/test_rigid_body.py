@@ -236,7 +236,8 @@ ABOUT = {"pivot": lambda p: ZERO}
     [
         (MOVES | TURNS, "needs both 'spin' or 'answer_spin' and 'pivot', or neither"),
         (MOVES | ABOUT, "needs both 'spin' or 'answer_spin' and 'pivot', or neither"),
-        (KNOWS | TURNS | ABOUT, "has an 'answer_spin', and no 'answer' to go with it"),
+        (KNOWS | TURNS | ABOUT, "has 'answer_spin', and no 'answer' to go with it"),
+        (KNOWS | {"inverse_mass": lambda c, p: 0.0}, "has 'inverse_mass', and no 'answer' to go with it"),
     ],
 )
 def test_motions_that_do_not_fit_together_are_refused(parts: dict[str, Any], said: str) -> None:
