@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 ALONE := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
 # `make test` leaves out what is marked long; `make test-all` runs every test.
-.PHONY: run test test-all lint benchmark docs clean
+.PHONY: run test test-all types quick benchmark docs clean
 
 run: $(VENV)/.run
 	$(BIN)/clast run configs/crush_grain.yaml
@@ -14,7 +14,12 @@ run: $(VENV)/.run
 test: $(VENV)/.test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(MAKE) --jobs=2 types quick
+
+types: $(VENV)/.test
 	$(BIN)/mypy
+
+quick: $(VENV)/.test
 	$(ALONE) $(BIN)/pytest -n 2 -m "not long"
 
 test-all: $(VENV)/.test
@@ -34,9 +39,9 @@ $(VENV)/.run: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install --quiet --editable .
 	touch $@
 
-$(VENV)/.test: $(VENV)/.run
+$(VENV)/.test: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install --quiet --editable ".[test]"
-	touch $@
+	touch $(VENV)/.run $@
 
 $(VENV)/.docs: $(VENV)/.run
 	$(BIN)/python -m pip install --quiet --editable ".[docs]"

@@ -27,7 +27,7 @@ def at_share(folder: Path, share: float, changes: dict[str, Any]) -> SceneConfig
 
 
 @pytest.mark.parametrize("share", [1.05, 1.1, 1.2, 1.3])
-@pytest.mark.parametrize("ledger", [False, True])
+@pytest.mark.parametrize("ledger", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_a_crush_above_the_limit_is_stopped_before_its_plates_have_done_anything(
     tmp_path: Path, share: float, ledger: bool
 ) -> None:

@@ -95,11 +95,12 @@ def test_a_crush_with_breakage_friction_and_damping_closes(tmp_path: Path, model
 @pytest.mark.parametrize(
     "changes",
     [
-        ["bonds.kinematics=incremental"],
-        ["bonds.damping=0.1"],
+        ["bonds.kinematics=incremental", "bonds.damping=0.1"],
+        pytest.param(["bonds.kinematics=incremental"], marks=pytest.mark.long),
+        pytest.param(["bonds.damping=0.1"], marks=pytest.mark.long),
         pytest.param(["bonds.damping=0.1", "integrator=leapfrog"], marks=pytest.mark.long),
     ],
-    ids=["incremental", "damped", "damped, leapfrog"],
+    ids=["incremental and damped", "incremental", "damped", "damped, leapfrog"],
 )
 def test_a_crush_closes_however_its_bonds_are_measured_and_damped(tmp_path: Path, changes: list[str]) -> None:
     simulation = ended(tmp_path, CRUSH, [LEDGER, "time.step=1e-7 s", "time.end.strain=0.15", *changes])

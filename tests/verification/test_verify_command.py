@@ -149,7 +149,7 @@ def test_a_bond_that_is_no_cylinder_is_not_compared_with_one():
 
 
 @pytest.mark.parametrize("case", ["chung_ooi_4", "chung_ooi_5", "chung_ooi_6", "chung_ooi_8"])
-@pytest.mark.parametrize("law", ["too_rough", "pushing"])
+@pytest.mark.parametrize("law", ["too_rough", pytest.param("pushing", marks=pytest.mark.long)])
 def test_friction_of_a_wrong_size_or_sign_is_caught_where_it_slides(law, case):
     assert any("slides" in quantity for quantity in failed(law, case))
 

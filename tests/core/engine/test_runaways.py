@@ -96,8 +96,11 @@ def assert_same(one: Simulation, other: Simulation) -> None:
 
 @pytest.mark.parametrize(
     ("scene", "steps"),
-    [(lambda _: gas(), 4000), (lambda _: drum(), 4000), (grain, 5000)],
-    ids=["gas in a periodic box", "drum", "grain"],
+    [
+        pytest.param(lambda _: gas(), 4000, id="gas in a periodic box"),
+        pytest.param(lambda _: drum(), 4000, id="drum", marks=pytest.mark.long),
+        pytest.param(grain, 5000, id="grain"),
+    ],
 )
 def test_no_bit_depends_on_who_is_looked_at(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, scene: Callable[[Path], SceneConfig], steps: int

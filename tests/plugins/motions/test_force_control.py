@@ -92,7 +92,7 @@ def test_a_stress_is_a_force_on_a_disc() -> None:
     assert pressed.direction == DOWN
 
 
-@pytest.mark.parametrize("integrator", ["midstep", "leapfrog", "velocity_verlet"])
+@pytest.mark.parametrize("integrator", ["midstep", pytest.param("leapfrog", marks=pytest.mark.long), "velocity_verlet"])
 def test_one_sphere_is_pressed_as_far_as_hertz_tells(integrator: str) -> None:
     simulation = ended(sphere(integrator=integrator))
     nu, nu_s = 0.25, 0.3
@@ -177,6 +177,7 @@ def test_it_goes_on_from_a_checkpoint_to_the_same_bytes(
         assert one.tobytes() == other.tobytes(), name
 
 
+@pytest.mark.long  # small grains under driven walls tell the same
 def test_any_number_of_threads_gives_the_same_bytes(
     broken: tuple[Path, Simulation, Simulation], monkeypatch: pytest.MonkeyPatch
 ) -> None:

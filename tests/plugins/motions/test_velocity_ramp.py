@@ -15,6 +15,7 @@ from clast_plugins.motions.velocity_ramp import Course, VelocityRamp, course, ve
 from tests.scenes import CRUSH, write
 
 RAMP = "walls.upper.motion={type: velocity_ramp, start: [0, 0, %s], end: [0, 0, %s], duration: %s, shape: %s}"
+LEDGER = "output.ledger=true"
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -3.0)
 
 
@@ -44,7 +45,7 @@ def test_a_smooth_ramp_begins_and_ends_without_a_jump_of_the_acceleration() -> N
 def test_the_wall_comes_as_far_as_the_integral_of_its_velocity_with_the_square_of_the_step(tmp_path: Path) -> None:
     errors = []
     for step in (4e-7, 2e-7):
-        rising = simulation(tmp_path, f"time.step={step}", RAMP % (0, "-10 mm/s", "1 ms", "smooth"))
+        rising = simulation(tmp_path, LEDGER, f"time.step={step}", RAMP % (0, "-10 mm/s", "1 ms", "smooth"))
         rising.advance_to(round(0.4e-3 / step))
         s = 0.4
         integral = -0.01 * 1e-3 * (s**3 - 0.5 * s**4)
@@ -81,7 +82,7 @@ def test_a_ramp_that_stops_before_the_strain_is_refused_with_how_far_it_comes(tm
 def test_the_ledger_closes_while_the_velocity_changes(tmp_path: Path) -> None:
     loaded = simulation(
         tmp_path,
-        "output.ledger=true",
+        LEDGER,
         "time.step=1e-7",
         "time.end={time: 6 ms}",
         RAMP % ("-20 mm/s", "0", "6 ms", "linear"),
