@@ -84,11 +84,14 @@ def _caption(run: Run, frame: Frame) -> str:
 
 
 def _aim(plotter: Any, run: Run, frame: Frame, *, room_below: float) -> None:
-    """Look slightly from above; fragments that flew off must not shrink the grain to a dot."""
+    """Look slightly from above, at particles and walls that turn; what flew off must not shrink a grain to a dot."""
     points = frame.position[np.isfinite(frame.position).all(axis=1)].astype(np.float64)
     if not len(points):
         return
     low, high = np.quantile(points, 0.01, axis=0), np.quantile(points, 0.99, axis=0)
+    for wall in (each for each in run.walls.values() if each.pivot is not None):
+        placed = wall.placed(frame)
+        low, high = np.minimum(low, placed.min(axis=0)), np.maximum(high, placed.max(axis=0))
     centre = 0.5 * (low + high)
     size = float(np.linalg.norm(high - low)) + 2.0 * float(run.radius.max())
     plotter.enable_anti_aliasing("ssaa")
