@@ -37,14 +37,15 @@ def plugins(ctx: click.Context, files: tuple[Path, ...], as_json: bool) -> None:
 
 @plugins.command()
 @click.argument("name")
+@click.option("--plugin", "more", multiple=True, type=click.Path(path_type=Path), help="A Python file with a plugin.")
 @_as_json
 @click.pass_obj
-def show(files: tuple[Path, ...], name: str, as_json: bool) -> None:
+def show(files: tuple[Path, ...], name: str, more: tuple[Path, ...], as_json: bool) -> None:
     """Show the parameters and the source of the part NAME."""
     from clast.config.describe import found_parts, part_data, part_text
     from clast.plugins.discovery import discover
 
-    registry = discover(files)
+    registry = discover((*files, *more))
     if as_json:
         _print_json([part_data(entry) for entry in found_parts(registry, name)])
     else:

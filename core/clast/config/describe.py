@@ -130,10 +130,11 @@ def part_text(registry: Registry, name: str) -> str:
 
 
 def _entry_text(entry: Registered) -> str:
+    places = (str(entry.source), str(entry.file or "file unknown"))
     lines = [
         f"{entry.name} ({entry.kind.replace('_', ' ')})",
         f"  {entry.part.summary}",
-        f"  from plugin {entry.source.plugin!r} ({entry.source}), {entry.file or 'file unknown'}",
+        f"  from plugin {entry.source.plugin!r} ({', '.join(dict.fromkeys(places))})",
     ]
     listed = parameters(entry.part.Params)
     if not listed:
