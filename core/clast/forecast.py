@@ -17,6 +17,7 @@ from clast.forecast_memory import COMPILER_BYTES, memory_concerns, run_memory, w
 from clast.forecast_results import results_text, size_concerns
 from clast.forecast_step import step_notes, sure_factors, time_step, with_stiffest_bond
 from clast.parts.generator import Estimate, Gaps, Packing, Prediction
+from clast.scene.bodies import odd_bodies
 from clast.scene.compression import Gauge
 from clast.scene.concerns import concerns_of_parts, rooms_left_open
 from clast.scene.foretold import bonded_gaps, foretold
@@ -132,6 +133,7 @@ def forecast(config: SceneConfig) -> Forecast:
             *concerns_of_parts(config, told),
             *rooms_left_open(config, told),
             *narrow_plates(config, 2.0 * float(sample.radius.min())),
+            *odd_bodies(sample),
             *swift_walls(config, float(sample.radius.min()), step, steps),
             *time_concerns(config, steps, seconds),
             *memory_concerns(config, memory, walls),

@@ -13,7 +13,7 @@ import numpy as np
 from clast.config.scene import SceneConfig
 from clast.config.yaml_loader import dump_yaml
 from clast.ended import Ended
-from clast.errors import RefusedError, RunError
+from clast.errors import PluginError, RefusedError, RunError
 from clast.parts.writer import Written
 from clast.results import checkpoint, curves, store, summary
 from clast.results.frames import Frames
@@ -170,6 +170,8 @@ class _Session:
                 self.save()
             except BaseException as error:
                 self._leave(asked=isinstance(error, RunInterruptedError))
+                if isinstance(error, PluginError) and self.begun is not None:  # a law that fails amid a run
+                    raise RunError(str(error)) from error
                 raise
             self.store.close(complete=True)
 

@@ -15,7 +15,7 @@ from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.typed_passes import NopythonTypeInference
 
 
-class Unfinished(JITCodeLibrary):
+class Unfinished(JITCodeLibrary):  # type: ignore[misc, unused-ignore]
     """Code to be linked into other code; it has no address of its own."""
 
     @property
@@ -50,7 +50,7 @@ class WithoutEnvironment:
 
 
 @register_pass(mutates_CFG=False, analysis_only=False)
-class KeepUnfinished(FunctionPass):
+class KeepUnfinished(FunctionPass):  # type: ignore[misc, unused-ignore]
     """Pass that chooses where the code of a function is kept."""
 
     _name = "keep_unfinished"
@@ -65,7 +65,7 @@ class KeepUnfinished(FunctionPass):
         return True
 
 
-class LinkingCompiler(Compiler):
+class LinkingCompiler(Compiler):  # type: ignore[misc, unused-ignore]
     """The compiler of functions that only compiled code calls."""
 
     def define_pipelines(self) -> list[Any]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from clast.config.scene import SceneConfig
+from clast.errors import RunError
 from clast.parts.stop import Curves
 from clast.scene.wall_rows import WallRows, wall_rows
 from clast.simulation import Simulation
+from clast.soundness.sunken import sunken
 
 
 class Stages:
@@ -30,6 +32,9 @@ class Stages:
                 self._begin(simulation, w, number + 1, first + len(since["time_s"]) - 1)
 
     def _begin(self, simulation: Simulation, w: int, number: int, sample: int) -> None:
+        before, *later = dict(self.walls)[w][number - 1 : number + 1]
+        if later and later[0].motion.part.inverse_mass is not None and before.motion.part.inverse_mass is None:
+            self._refuse_sunken(simulation, w, number)
         if self.rows is None:
             self.rows = wall_rows(simulation.scene, simulation.plan)
         walls, course = simulation.world.walls, self.rows.courses[w][number]
@@ -38,6 +43,17 @@ class Stages:
         walls.course[w, : len(course.row)] = course.row
         walls.begun[w] = simulation.time
         walls.stage[w] = number, sample
+
+    def _refuse_sunken(self, simulation: Simulation, w: int, number: int) -> None:
+        """Refuse to let forces move a wall that they would shoot out of particles it was driven into."""
+        found, config = sunken(simulation.scene, simulation.world, w), simulation.config
+        if found is not None:
+            where = ("walls", list(config.walls)[w])
+            text = (
+                f"as its motion {number + 1} begins, at t = {simulation.time:.4g} s, it stands {found}: forces would "
+                "shoot it out. Let the motion before end sooner, or raise contacts.start_overlap"
+            )
+            raise RunError(f"{config.document.where(where)}: walls.{where[1]}: {text}")
 
 
 def unfinished(simulation: Simulation) -> list[str]:

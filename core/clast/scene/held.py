@@ -25,12 +25,11 @@ def not_held(scene: Scene) -> list[str]:
     """Return a sentence for each push that more than half of the particles would follow for ever.
 
     Pushes are body forces and walls that move; what holds are walls, and the domain. Scenes
-    without walls are left alone.
+    without walls are left alone, and those with particles that nothing moves: on such ones others may rest.
     """
-    if not scene.config.walls or scene.config.boundaries.domain is not None:
+    if not scene.config.walls or scene.config.boundaries.domain is not None or scene.prescribed.any():
         return []
     chosen = np.unique(np.linspace(0, len(scene.radius) - 1, ASKED).astype(np.int64))
-    chosen = chosen[~scene.prescribed[chosen]]
     told = []
     for name, way in _pushes(scene):
         free = sum(not _stopped(scene, int(k), way) for k in chosen)

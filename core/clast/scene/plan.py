@@ -89,8 +89,13 @@ def refuse_steering(config: SceneConfig) -> None:
 
 def step_share(scene: Scene) -> float:
     """Return the share of the stable step that the damping of motion and walls that give way leave."""
-    damping, mass = scene.config.damping, float(scene.mass.sum())
-    share = 1.0 if damping is None else float(damping.part.step_share(damping.params))
+    damping = scene.config.damping
+    return (1.0 if damping is None else float(damping.part.step_share(damping.params))) * share_of_walls(scene)
+
+
+def share_of_walls(scene: Scene) -> float:
+    """Return the share of the stable step that walls leave, if all particles touch them and they give way."""
+    mass, share = float(scene.mass.sum()), 1.0
     for wall in scene.config.walls.values():
         share *= min([1.0, *(_share_left(stage.motion, mass, arm(wall)) for stage in wall.stages)])
     return share

@@ -1,4 +1,4 @@
-"""Swift walls: walls that go so far in one step that contacts cannot follow them."""
+"""Swift walls: walls that go or turn so far in one step that contacts cannot follow them."""
 
 from __future__ import annotations
 
@@ -7,16 +7,20 @@ from numpy.typing import NDArray
 
 from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
+from clast.maths.vec3 import ZERO
+from clast.scene.turning import spins
 
 Floats = NDArray[np.float64]
 LOOKS = 500
 """How often a motion is asked for its velocity."""
 MOST_WAY = 0.5
 """Longest way of a wall in one step, as a share of the smallest radius."""
+MOST_TURN = 0.5
+"""Largest turn of a wall in one step in rad."""
 
 
 def swift_walls(config: SceneConfig, radius: float, step: float, steps: int) -> list[str]:
-    """Return a sentence for each wall that is known to go farther in a step than contacts can follow.
+    """Return a sentence for each wall that is known to go or turn farther in a step than contacts can follow.
 
     Parameters
     ----------
@@ -31,7 +35,15 @@ def swift_walls(config: SceneConfig, radius: float, step: float, steps: int) -> 
     times = step * np.linspace(0.0, steps, LOOKS)
     told = []
     for name, wall in config.walls.items():
-        way = step * max([0.0, *(fastest(stage.motion, times) for stage in wall.stages)])
+        motions = [stage.motion for stage in wall.stages]
+        turn = step * max([0.0, *(_longest(spins_of(each)) for each in motions)])
+        way = step * max([0.0, *(_longest(velocities_of(each, times)) for each in motions)])
+        if turn > MOST_TURN:
+            text = (
+                f"it turns by up to {turn:.2g} rad in a step of {step:.3g} s, where {MOST_TURN:g} is the most: turn it "
+                "more slowly, or take a smaller time.step"
+            )
+            told.append(config.remark(("walls", name), text))
         if way > MOST_WAY * radius:
             text = (
                 f"it goes up to {way:.3g} m in a step of {step:.3g} s, {way / radius:.2g} times the smallest radius: "
@@ -42,9 +54,22 @@ def swift_walls(config: SceneConfig, radius: float, step: float, steps: int) -> 
     return told
 
 
-def fastest(motion: Chosen, times: Floats) -> float:
-    """Return the largest speed of a motion at some times (t,) in s, as far as it is known beforehand, in m/s."""
+def _longest(vectors: Floats) -> float:
+    return float(np.linalg.norm(vectors, axis=1).max())
+
+
+def spins_of(motion: Chosen) -> Floats:
+    """Return angular velocities of a motion in rad/s, (t, 3), as far as they are known beforehand."""
+    part = motion.part
+    if part.answer_spin is None:
+        return spins(motion)
+    start = ZERO if part.start_spin is None else part.start_spin(part.course(motion.params))
+    return np.array([start])
+
+
+def velocities_of(motion: Chosen, times: Floats) -> Floats:
+    """Return velocities of a motion at times (t,) in s, as far as they are known beforehand, (v, 3) in m/s."""
     part, course = motion.part, motion.part.course(motion.params)
     if part.velocity is None:
-        return 0.0 if part.start is None else float(np.linalg.norm(part.start(course)))
-    return max(float(np.linalg.norm(part.velocity(course, float(time)))) for time in times)
+        return np.array([ZERO if part.start is None else part.start(course)])
+    return np.array([part.velocity(course, time) for time in times.tolist()])

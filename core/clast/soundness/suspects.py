@@ -45,8 +45,16 @@ def suspects(world: World, scene: Scene, lost: NDArray[np.bool_]) -> str:
     touched = (lost[pairs.first] & lost[pairs.second]).any() or lost[world.wall_pairs.particle].any()
     if config.contacts is not None and touched:
         found.append(told(config.contacts.law))
+    if touched:
+        found += [told(motion) for motion in answering(config)]
     found += [told(force) for force in config.body_forces]
     return f"look at {' and '.join(found)}" if found else "look at the loads on it"
+
+
+def answering(config: SceneConfig) -> list[Chosen]:
+    """Return the motions that are not Clast's own and tell contacts how a wall gives way."""
+    motions = [stage.motion for wall in config.walls.values() for stage in wall.stages]
+    return [each for each in motions if each.part.inverse_mass is not None and each.source.origin != OWN_DISTRIBUTION]
 
 
 def foreign_laws(config: SceneConfig) -> str:

@@ -18,7 +18,7 @@ from clast.engine.blueprint import Blueprint
 from clast.engine.records import build, width
 from clast.maths.vec3 import ZERO
 from clast.parts.contact_law import Touch
-from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients, giving_way, material_pairs
+from clast.scene.plan import blueprint, bond_stiffness, damping_coefficients, giving_way, material_pairs, share_of_walls
 from clast.scene.scene import Scene
 from clast.stability.impact import impact_duration
 
@@ -129,7 +129,8 @@ def bond_limit(scene: Scene) -> float:
 def contact_limit(scene: Scene) -> float:
     """Return a twentieth of the shortest impact: of the smallest particles of two materials, or of one and a wall.
 
-    The closing speed is the rule's ``impact_speed``.
+    The closing speed is the rule's ``impact_speed``. An impact of all particles at once on a wall that gives way is
+    shorter, as the stable step is: of that it is a fifth.
     """
     plan = blueprint(scene)
     if plan.contacts is None or scene.config.contacts is None:
@@ -139,11 +140,13 @@ def contact_limit(scene: Scene) -> float:
     speed = rule.impact_speed if isinstance(rule, StepRule) else IMPACT_SPEED
     history = None if law.History is None else build(law.History, [0.0] * width(law.History))
     names, walls = list(scene.config.materials), scene.config.walls.values()
-    shortest = np.inf
+    shortest, together = np.inf, share_of_walls(scene)
     for i, j, pair in material_pairs(scene):
         constants = law.constants(chosen.params, pair)
         partners = [smallest(scene, j)] if j in scene.material and len(scene.radius) > 1 else []
-        partners += [(np.inf, giving_way(wall)) for wall in walls if wall.material == names[j]]
+        partners += [
+            (np.inf, given) for wall in walls if wall.material == names[j] for given in {0.0, giving_way(wall)}
+        ]
         r, per_mass = smallest(scene, i)
         for r_j, per_mass_j in partners:
             radius, mass = 1.0 / (1.0 / r + 1.0 / r_j), 1.0 / (per_mass + per_mass_j)
@@ -153,7 +156,8 @@ def contact_limit(scene: Scene) -> float:
             def energy(overlap: float, touch: Touch = touch, constants: object = constants) -> float:
                 return float(law.energy(touch._replace(overlap=overlap), constants, history, choices))
 
-            shortest = min(shortest, impact_duration(energy, mass, speed, radius))
+            lasts = impact_duration(energy, mass, speed, radius)
+            shortest = min(shortest, lasts, 4.0 * together * lasts if (r_j, per_mass_j) == (np.inf, 0.0) else np.inf)
     return 0.05 * float(shortest)
 
 

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from clast.maths.rotation import IDENTITY, turn
-from clast.maths.vec3 import Vec
+from clast.maths.vec3 import ZERO, Vec, add, cross, dot, scale
 from clast.parts.motion import Motion, Pressed, Pushed, Turned
 from clast.testing.bits import same_bits
 from clast.testing.claim import Claim, claim, must
 from clast.testing.draws import directions, negated, numbers, rotations, vectors
 
 LONG, SPAN, MASS = 10.0, 1e-6, 1e-6
+PUSH, SHORT = 1e-3, 1e-12
 PIECES = 400
 """In which velocities are summed up: a jump of the velocity in one of them counts as that much of the way."""
 
@@ -70,7 +71,15 @@ def _of_pushes(motion: Motion, course: Any) -> list[Claim]:
             directions(),
             vectors(0.1),
             rotations(),
-        )
+        ),
+        claim(
+            "how it gives way is how a push moves it, where that pushes",
+            lambda normal, arm, q: _moved(motion, course, Pushed(normal, arm, q, MASS)),
+            directions(),
+            vectors(0.1),
+            rotations(),
+        ),
+        claim("the share of the stable step that it leaves is above 0, and 1 at most", lambda: _leaves(motion, course)),
     ]
 
 
@@ -79,6 +88,30 @@ def _gives_way(motion: Motion, course: Any, pushed: Pushed) -> None:
     told = [motion.inverse_mass(course, pushed._replace(normal=n)) for n in (pushed.normal, negated(pushed.normal))]
     good = all(math.isfinite(each) and each >= 0.0 for each in told) and math.isclose(*told, rel_tol=1e-9)
     must(good, lambda: f"for {pushed} it is {told[0]} /kg, pushed the other way {told[1]} /kg")
+
+
+def _moved(motion: Motion, course: Any, pushed: Pushed) -> None:
+    assert motion.inverse_mass is not None
+    assert motion.answer is not None
+    gained = 0.0
+    for force, sign in ((scale(PUSH, pushed.normal), 1.0), (ZERO, -1.0)):
+        velocity = motion.answer(course, 0.0, Pressed(force, pushed.mass, ZERO, SHORT, SHORT))
+        if motion.answer_spin is not None:
+            turned = Turned(cross(pushed.arm, force), pushed.orientation, ZERO, SHORT, SHORT)
+            velocity = add(velocity, cross(motion.answer_spin(course, 0.0, turned), pushed.arm))
+        gained += sign * dot(pushed.normal, velocity) / (PUSH * SHORT)
+    told = motion.inverse_mass(course, pushed)
+    good = math.isclose(told, gained, rel_tol=1e-3, abs_tol=1e-6 * max(told, gained))
+    must(
+        good,
+        lambda: f"for {pushed} it is {told:g} /kg, and a short push moves it by {gained:g} m/s per N s",
+    )
+
+
+def _leaves(motion: Motion, course: Any) -> None:
+    if motion.step_share is not None:
+        shares = [motion.step_share(course, mass, 0.1) for mass in (1e-9, 1e-6, 1e-3, 1.0)]
+        must(all(0.0 < each <= 1.0 for each in shares), lambda: f"for particles of 1e-9 to 1 kg it is {shares}")
 
 
 def spin(motion: Motion, course: Any, time: float, moment: Vec, before: Vec) -> Vec:
@@ -162,11 +195,12 @@ def _compiled_alike(motion: Motion, course: Any) -> None:
             q = turn(IDENTITY, (f[5], f[0], f[1]), 0.1)
             told = Pushed((f[0], f[1], f[2]), (f[3], f[4], f[5]), q, MASS)
             out[k, 0] = inverse_mass(course, told)  # type: ignore[misc]
-            out[k, 1] = out[k, 2] = 0.0
+            out[k, 1] = out[k, 2] = q[0]
 
     draw = np.random.default_rng(13)
     moves = (known, ahead), (answering, answer), (going, way)
     turns = (turning, known_spin), (turned, answer_spin)
     for sweep, function in (*moves, *turns, (pushed, inverse_mass)):
         if function is not None:
-            same_bits(sweep, [function], (300, 3), draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6)), course)
+            drawn = draw.uniform(0.0, LONG, 300), draw.normal(size=(300, 6))
+            same_bits(sweep, [function, turn], (300, 3), *drawn, course)

@@ -69,3 +69,14 @@ def test_a_run_that_cannot_be_trusted_any_more_keeps_its_results(tmp_path: Path)
         run_scene(pressed(type="constant_velocity", velocity=[0, 0, -150.0]), tmp_path / "run")
     assert stopped.value.exit_code == 1
     assert (tmp_path / "run" / "results.h5").exists()
+
+
+def test_a_wall_that_turns_too_far_in_a_step_is_told() -> None:
+    for motion in (
+        {"type": "rotation", "axis": [0, 0, 1], "point": [0, 0, 3e-3], "rate": 1e6},
+        {"type": "swing", "axis": [0, 0, 1], "point": [0, 0, 3e-3], "amplitude": 1.0, "frequency": 1e6},
+    ):
+        (text,) = [each for each in forecast(pressed(**motion)).concerns if "walls.plate" in each]
+        assert "rad in a step of" in text
+    slow = pressed(type="rotation", axis=[0, 0, 1], point=[0, 0, 3e-3], rate=10.0)
+    assert [each for each in forecast(slow).concerns if "walls.plate" in each] == []

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 
+from clast import run_scene
 from clast.building import build_scene
 from clast.config.scene import SceneConfig, from_mapping
-from clast.errors import ConfigError
+from clast.errors import ConfigError, RunError
 from clast.maths.vec3 import ZERO, add, cross, dot, scale
 from clast.parts.motion import Pressed, Pushed, Turned
+from clast.plugins.discovery import discover
 from clast.scene.start import check_start
 from clast.simulation import Simulation
+from clast.testing.claim import try_claims
 from clast.testing.draws import directions, rotations, vectors
-from clast_plugins.motions import rigid_body
+from clast.testing.motion import claims
+from clast_plugins.motions import free, rigid_body
 
 RADIUS, GAP, SPEED, RESTITUTION = 1e-3, 1e-5, 0.1, 0.6
 APART = 0.1
@@ -74,6 +80,25 @@ def test_the_coefficient_of_restitution_is_the_one_written_whatever_the_wall_wei
     assert not simulation.world.particles.twist[[0, 2]].any()
 
 
+def bed(weight: float, restitution: float) -> SceneConfig:
+    """Return 5 x 5 spheres that are held, and a lid that lands on all of them at once."""
+    spheres = [
+        {"position": [2.2e-3 * (k % 5), 2.2e-3 * (k // 5), RADIUS], "radius": RADIUS, "fixed": True} for k in range(25)
+    ]
+    plate = {"lower": [-5e-3, -5e-3, 2.0 * RADIUS + GAP], "upper": [14e-3, 14e-3, 3e-3]}
+    walls = {"lid": block(0, **FREE | {"mass": weight * MASS}) | plate, "press": block(2, **PRESS)}
+    law = {"law": "hertz_mindlin", "pairs": {"default": {"restitution": restitution, "sliding_friction": 0.0}}}
+    return meetings().changed({"particles.particles": spheres, "walls": walls, "contacts": law, "time.end.time": 2e-3})
+
+
+@pytest.mark.parametrize("weight", [0.1, 1.0, 100.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.6])
+def test_a_lid_that_lands_on_many_at_once_comes_back_as_from_one(weight: float, restitution: float) -> None:
+    simulation = Simulation(bed(weight, restitution))
+    simulation.advance_to(simulation.last_step)
+    assert float(simulation.world.walls.velocity[0, 2]) == pytest.approx(restitution * SPEED, abs=0.03 * SPEED)
+
+
 def test_a_plate_presses_on_a_held_sphere_with_the_force_that_it_should() -> None:
     simulation = Simulation(meetings(end=20e-3))
     simulation.advance_to(simulation.last_step)
@@ -104,6 +129,20 @@ def test_a_wall_that_is_driven_passes_through_held_particles() -> None:
     assert not simulation.world.walls.force[0].any()
 
 
+def test_a_wall_that_was_driven_into_held_particles_is_not_let_go_there(tmp_path: Path) -> None:
+    stages = [
+        {
+            "type": "constant_velocity",
+            "velocity": [0.0, 0.0, -SPEED],
+            "until": {"type": "elapsed", "time": 1e-3},
+        },
+        {"type": "free", "mass": MASS},
+    ]
+    walls = {"anvil": block(0) | {"motion": stages}, "press": block(2, **PRESS)}
+    with pytest.raises(RunError, match=r"walls\.anvil: as its motion 2 begins, .* inside particle 0, which nothing"):
+        run_scene(meetings(walls=walls), tmp_path / "run")
+
+
 def test_a_wall_pushes_nothing_that_is_held_where_it_cannot_give_way() -> None:
     aside = FREE | {"velocity": [0.0, 0.0, 0.0], "along": [1.0, 0.0, 0.0]}
     more = {"contacts": {"law": "hertz_mindlin", "start_overlap": 1.0, "pairs": {"default": {"restitution": 0.6}}}}
@@ -111,6 +150,22 @@ def test_a_wall_pushes_nothing_that_is_held_where_it_cannot_give_way() -> None:
     simulation = Simulation(meetings(walls={"anvil": into}, **more))
     simulation.advance_to(simulation.last_step)
     assert not simulation.world.walls.force[0].any()
+
+
+def test_a_motion_that_tells_otherwise_than_it_moves_is_found() -> None:
+    def heavier(course: Any, pushed: Pushed) -> float:
+        return 0.5 * free.inverse_mass(course, pushed)
+
+    def all_of_it(course: Any, mass: float, reach: float) -> float:
+        return 2.0
+
+    motion, params = discover().get("motion", "free").part, free.Free(mass=0.1)
+    for name, wrong, said in (
+        ("inverse_mass", heavier, "it is 5 /kg, and a short push moves it by 10 m/s"),
+        ("step_share", all_of_it, "for particles of 1e-9 to 1 kg it is"),
+    ):
+        found = try_claims(claims(replace(motion, **{name: wrong}), params))
+        assert any(said in outcome.problem for outcome in found)
 
 
 @given(directions(), vectors(5e-3), rotations(), directions(), directions())

@@ -87,12 +87,15 @@ def wall_constants(particles: Particles, walls: Walls, numbers: Numbers, k: int,
 
 @inlined
 def inverse_mass(particles: Particles, walls: Walls, numbers: Numbers, k: int, w: int, n: Vec, lever: float) -> float:
-    """Return 1/m* of particle k and wall w in 1/kg, which touch along n at a lever from the particle's centre."""
+    """Return 1/m* of particle k and wall w in 1/kg, which touch along n at a lever from the particle's centre.
+
+    All contacts of a wall that gives way push it together: each has its share of the mass to itself.
+    """
     own: float = particles.body[k, INVERSE_MASS]
     if ANSWERING:
         arm = from_centre(walls, w, add(row(particles.pose, k, X), scale(lever, n)))
         turned = orientation(walls, w) if WALLS_TURN else IDENTITY
-        own += wall_inverse_mass(walls, w, Pushed(n, arm, turned, numbers.mass))
+        own += max(walls.contacts[w], 1) * wall_inverse_mass(walls, w, Pushed(n, arm, turned, numbers.mass))
     return own
 
 
@@ -210,10 +213,24 @@ def pull_off_loss(
 
 
 @routine
+def count_contacts(walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers) -> None:
+    """Count the contacts of each wall."""
+    for w in range(len(walls.contacts)):
+        walls.contacts[w] = 0
+    for p in range(len(pairs.wall)):
+        w = pairs.wall[p]
+        near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, pairs.particle[p], w))
+        if near.distance < wall_reach(particles, walls, pairs, numbers, p):
+            walls.contacts[w] += 1
+
+
+@routine
 def sweep_walls(
     walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers, book: Floats, dt: float
 ) -> None:
     """Add the loads of all wall contacts to particles and walls, in the order of the pairs; book losses and work."""
+    if ANSWERING:
+        count_contacts(walls, pairs, particles, numbers)
     for p in range(len(pairs.wall)):
         w, k = pairs.wall[p], pairs.particle[p]
         near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, k, w))
