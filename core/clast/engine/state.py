@@ -116,7 +116,7 @@ class Walls(NamedTuple):
     flat; ``lists`` holds what shapes and courses have of any length. ``begun`` (w,) is when the present stage of each
     wall's motion began in s, ``stage`` (w, 2) its number and that of the sample at which it began.
     ``answers`` (w,) is 1 for walls that forces move at some stage, so that particles touch them that nothing moves,
-    ``contacts`` (w,) how many contacts each of those had at the last forces.
+    ``pushes`` (w,) how many contacts pushed each of those at the last forces.
     ``slots`` (w,) is the most contacts of a particle with each wall, ``places`` (2 slots + 1, 4) room to find them, and
     ``crowded`` (w,) is 1 for walls that a particle touched in more places.
     """
@@ -140,7 +140,7 @@ class Walls(NamedTuple):
     begun: Floats
     stage: Integers
     answers: Bytes
-    contacts: Integers
+    pushes: Integers
     slots: Integers
     places: Floats
     crowded: Bytes

@@ -176,7 +176,7 @@ def _walls(scene: Scene, plan: Blueprint) -> Walls:
         lists=rows.lists,
         stage=np.zeros((len(chosen), 2), np.int64),
         answers=np.array([wall_answers(wall) for wall in chosen], np.uint8),
-        contacts=np.zeros(len(chosen), np.int64),
+        pushes=np.zeros(len(chosen), np.int64),
         slots=slots,
         places=np.zeros((2 * int(slots.max(initial=1)) + 1, 4)),
         crowded=np.zeros(len(slots), np.uint8),

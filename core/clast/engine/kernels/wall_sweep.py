@@ -95,7 +95,7 @@ def inverse_mass(particles: Particles, walls: Walls, numbers: Numbers, k: int, w
     if ANSWERING:
         arm = from_centre(walls, w, add(row(particles.pose, k, X), scale(lever, n)))
         turned = orientation(walls, w) if WALLS_TURN else IDENTITY
-        own += max(walls.contacts[w], 1) * wall_inverse_mass(walls, w, Pushed(n, arm, turned, numbers.mass))
+        own += max(walls.pushes[w], 1) * wall_inverse_mass(walls, w, Pushed(n, arm, turned, numbers.mass))
     return own
 
 
@@ -215,13 +215,13 @@ def pull_off_loss(
 @routine
 def count_contacts(walls: Walls, pairs: WallPairs, particles: Particles, numbers: Numbers) -> None:
     """Count the contacts of each wall."""
-    for w in range(len(walls.contacts)):
-        walls.contacts[w] = 0
+    for w in range(len(walls.pushes)):
+        walls.pushes[w] = 0
     for p in range(len(pairs.wall)):
         w = pairs.wall[p]
         near = place_on_wall(particles, walls, pairs, p, farthest(particles, walls, numbers, pairs.particle[p], w))
         if near.distance < wall_reach(particles, walls, pairs, numbers, p):
-            walls.contacts[w] += 1
+            walls.pushes[w] += 1
 
 
 @routine
