@@ -13,12 +13,16 @@ CENTRE = (0.0, 0.0, 4.15e-3)
 
 
 def told(
-    centre: tuple[float, float, float] = CENTRE, motion: str = "rigid_body", plugins: tuple[str, ...] = (), **held: bool
+    centre: tuple[float, float, float] = CENTRE,
+    motion: str = "rigid_body",
+    plugins: tuple[str, ...] = (),
+    heavier: float = 1.0,
+    **held: bool,
 ) -> list[str]:
     """Return what is said of a plate above one sphere."""
     body: dict[str, Any] = {"mass": 6e-5, "gravity": [0.0, 0.0, -9.81]}
     if motion == "rigid_body":
-        body |= {"centre": list(centre), "inertia": [3.2e-10, 5.0e-10, 8.2e-10]}
+        body |= {"centre": list(centre), "inertia": [3.2e-10 * heavier, 5.0e-10 * heavier, 8.2e-10 * heavier]}
     wall: dict[str, Any] = {"type": "block", "lower": [-5e-3, -4e-3, 4e-3], "upper": [5e-3, 4e-3, 4.3e-3]}
     wall |= {"material": "glass"} | ({"motion": {"type": motion, **body}} if motion else {})
     ground = {"type": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0], "material": "glass"}
@@ -69,3 +73,10 @@ def test_a_centre_far_outside_its_shape_is_pointed_out() -> None:
     (text,) = told(centre=(1.0, 0.0, 0.0))
     assert "its centre of mass lies 0.995 m away from its shape, which is 0.0128 m long" in text
     assert told(centre=(5e-3, 4e-3, 8e-3)) == []
+
+
+def test_moments_of_inertia_that_no_such_shape_can_have_are_pointed_out() -> None:
+    """All of 60 mg at the corners, 6.4 mm away from the middle, would have 2.46e-9 kg m²."""
+    assert told(heavier=2.9) == []
+    (text,) = told(heavier=3.1)
+    assert "moments of inertia is 2.54e-09 kg m2, and if all of its mass lay at its farthest place it would be" in text
