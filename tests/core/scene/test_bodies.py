@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from clast.building import build_scene
-from clast.config.scene import from_mapping
+from clast.config.scene import SceneConfig, from_mapping
 from clast.scene.concerns import concerns
+from clast.soundness.suspects import answering
 
 CENTRE = (0.0, 0.0, 4.15e-3)
 
@@ -20,6 +21,18 @@ def told(
     **held: bool,
 ) -> list[str]:
     """Return what is said of a plate above one sphere."""
+    scene = plated(centre, motion, plugins, heavier, **held)
+    return [text for text in concerns(build_scene(scene)) if "walls.plate" in text]
+
+
+def plated(
+    centre: tuple[float, float, float] = CENTRE,
+    motion: str = "rigid_body",
+    plugins: tuple[str, ...] = (),
+    heavier: float = 1.0,
+    **held: bool,
+) -> SceneConfig:
+    """Return a plate above one sphere."""
     body: dict[str, Any] = {"mass": 6e-5, "gravity": [0.0, 0.0, -9.81]}
     if motion == "rigid_body":
         body |= {"centre": list(centre), "inertia": [3.2e-10 * heavier, 5.0e-10 * heavier, 8.2e-10 * heavier]}
@@ -38,7 +51,7 @@ def told(
         "walls": {"plate": wall, "ground": ground},
         "time": {"end": {"time": 0.04}},
     }
-    return [text for text in concerns(build_scene(from_mapping(scene))) if "walls.plate" in text]
+    return from_mapping(scene)
 
 
 SILENT = '''"""A wall that forces move, and whose motion says nothing of how it gives way."""
@@ -80,3 +93,11 @@ def test_moments_of_inertia_that_no_such_shape_can_have_are_pointed_out() -> Non
     assert told(heavier=2.9) == []
     (text,) = told(heavier=3.1)
     assert "moments of inertia is 2.54e-09 kg m2, and if all of its mass lay at its farthest place it would be" in text
+
+
+def test_motions_of_ones_own_are_suspected_where_a_particle_at_a_wall_is_lost(tmp_path: Path) -> None:
+    mine = tmp_path / "light.py"
+    mine.write_text(SILENT.replace("answer=answer", "answer=answer, inverse_mass=lambda c, pushed: 0.0"))
+    (found,) = answering(plated(motion="light", plugins=(str(mine),)))
+    assert found.name == "light"
+    assert answering(plated(motion="free")) == answering(plated(motion="")) == []

@@ -17,6 +17,12 @@ PISTON = {"type": "plane", "material": "glass", "point": [0, 0, 0.02], "normal":
 DOWN = {"type": "constant_velocity", "velocity": [0, 0, -0.1]}
 RAMP = {"type": "velocity_ramp", "end": [0, 0, -0.1], "duration": "1 ms"}
 SERVO = {"type": "force_control", "direction": [0, 0, -1], "force": "1 N", "max_velocity": "1 mm/s"}
+RESTING = {
+    "type": "explicit",
+    "material": "glass",
+    "particles": [{"position": [0, 0, 2.1e-3 * k], "radius": 1e-3, "fixed": k == 0} for k in range(4)],
+}
+"""A row of spheres on one that nothing moves."""
 GRAVITY = [{"type": "gravity", "acceleration": [0, 0, -9.81]}]
 
 
@@ -59,6 +65,7 @@ def test_a_tube_without_a_bottom_is_pointed_out(walls: dict[str, Any], more: dic
         ({}, {"body_forces": GRAVITY}),
         ({"tube": TUBE}, {}),
         ({"vessel": BOX | {"motion": DOWN}}, {"body_forces": GRAVITY}),
+        ({"tube": TUBE}, {"body_forces": GRAVITY, "particles": RESTING}),
         ({"tube": TUBE}, {"body_forces": GRAVITY, "boundaries": {"domain": {"lower": [-1] * 3, "upper": [1] * 3}}}),
     ],
 )

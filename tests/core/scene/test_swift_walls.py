@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from clast import run_scene
+from clast import Simulation, run_scene
 from clast.config.scene import SceneConfig, from_mapping
-from clast.errors import RefusedError, RunError
+from clast.errors import PluginError, RefusedError, RunError
 from clast.forecast import forecast
 from clast.scene.swift_walls import swift_walls
 
@@ -80,3 +80,16 @@ def test_a_wall_that_turns_too_far_in_a_step_is_told() -> None:
         assert "rad in a step of" in text
     slow = pressed(type="rotation", axis=[0, 0, 1], point=[0, 0, 3e-3], rate=10.0)
     assert [each for each in forecast(slow).concerns if "walls.plate" in each] == []
+
+
+def test_a_law_that_raises_amid_a_run_ends_it_as_any_failure_does(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def boom(simulation: Simulation, observers: object) -> None:
+        raise PluginError("law.py:3: raised ValueError: boom")
+
+    monkeypatch.setattr(Simulation, "run", boom)
+    with pytest.raises(RunError, match=r"law\.py:3: raised ValueError: boom") as failed:
+        run_scene(pressed(type="constant_velocity", velocity=[0, 0, -1.0]), tmp_path / "run")
+    assert failed.value.exit_code == 1
+    assert (tmp_path / "run" / "checkpoint.h5").exists()
