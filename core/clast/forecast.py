@@ -25,7 +25,7 @@ from clast.scene.narrow_plates import narrow_plates
 from clast.scene.scatter import refuse_beyond_bounds
 from clast.scene.scene import Scene
 from clast.scene.start import check_bonds, check_contacts, check_start, check_tracks
-from clast.scene.swift_walls import swift_walls
+from clast.soundness.swift_walls import swift_walls
 
 # seconds a step, measured on one core of an AMD EPYC (family 25, model 1) with grains of 361 to 17 700 primaries:
 # 30 ns a bond where everything fits into the cache, 45 ns where not

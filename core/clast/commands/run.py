@@ -16,9 +16,9 @@ from clast.forecast import duration, run_seconds, time_concerns
 from clast.forecast_results import size_concerns
 from clast.results.in_words import summary_rows
 from clast.scene.concerns import concerns
-from clast.scene.swift_walls import swift_walls
 from clast.session import Listener, Outcome, run_scene
 from clast.simulation import Simulation
+from clast.soundness.swift_walls import swift_walls
 
 PLAIN_EVERY = 5.0
 

@@ -16,7 +16,7 @@ Some = Integers | slice
 """Which particles are looked at."""
 ALL = slice(None)
 MOST_WAY = 0.5
-"""Longest way of a particle in one step, as a share of the smallest radius."""
+"""Longest way of a particle or wall in one step, as a share of the smallest radius."""
 MOST_TURN = 0.5
 """Largest turn of a particle in one step in rad; beyond it orientations lose digits."""
 LONGEST_WAY = 0.45

@@ -140,24 +140,23 @@ def contact_limit(scene: Scene) -> float:
     speed = rule.impact_speed if isinstance(rule, StepRule) else IMPACT_SPEED
     history = None if law.History is None else build(law.History, [0.0] * width(law.History))
     names, walls = list(scene.config.materials), scene.config.walls.values()
-    shortest, together = np.inf, share_of_walls(scene)
+    at_once = 4.0 * share_of_walls(scene)
+    shortest = np.inf
     for i, j, pair in material_pairs(scene):
         constants = law.constants(chosen.params, pair)
-        partners = [smallest(scene, j)] if j in scene.material and len(scene.radius) > 1 else []
-        partners += [
-            (np.inf, given) for wall in walls if wall.material == names[j] for given in {0.0, giving_way(wall)}
-        ]
+        partners = [(*smallest(scene, j), 1.0)] if j in scene.material and len(scene.radius) > 1 else []
+        for wall in (each for each in walls if each.material == names[j]):
+            partners += [(np.inf, giving_way(wall), 1.0), (np.inf, 0.0, at_once)]
         r, per_mass = smallest(scene, i)
-        for r_j, per_mass_j in partners:
+        for r_j, per_mass_j, share in partners:
             radius, mass = 1.0 / (1.0 / r + 1.0 / r_j), 1.0 / (per_mass + per_mass_j)
-            wall = r_j if r_j < np.inf else 0.0
-            touch = Touch(0.0, (0.0, 0.0, 1.0), ZERO, ZERO, ZERO, radius, r, wall, 1.0 / mass, 1.0)
+            behind = r_j if r_j < np.inf else 0.0
+            touch = Touch(0.0, (0.0, 0.0, 1.0), ZERO, ZERO, ZERO, radius, r, behind, 1.0 / mass, 1.0)
 
             def energy(overlap: float, touch: Touch = touch, constants: object = constants) -> float:
                 return float(law.energy(touch._replace(overlap=overlap), constants, history, choices))
 
-            lasts = impact_duration(energy, mass, speed, radius)
-            shortest = min(shortest, lasts, 4.0 * together * lasts if (r_j, per_mass_j) == (np.inf, 0.0) else np.inf)
+            shortest = min(shortest, share * impact_duration(energy, mass, speed, radius))
     return 0.05 * float(shortest)
 
 

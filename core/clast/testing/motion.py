@@ -101,7 +101,7 @@ def _moved(motion: Motion, course: Any, pushed: Pushed) -> None:
             velocity = add(velocity, cross(motion.answer_spin(course, 0.0, turned), pushed.arm))
         gained += sign * dot(pushed.normal, velocity) / (PUSH * SHORT)
     told = motion.inverse_mass(course, pushed)
-    good = math.isclose(told, gained, rel_tol=1e-3, abs_tol=1e-6 * max(told, gained))
+    good = math.isclose(told, gained, rel_tol=1e-3)
     must(
         good,
         lambda: f"for {pushed} it is {told:g} /kg, and a short push moves it by {gained:g} m/s per N s",

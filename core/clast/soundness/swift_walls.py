@@ -9,14 +9,11 @@ from clast.config.choice import Chosen
 from clast.config.scene import SceneConfig
 from clast.maths.vec3 import ZERO
 from clast.scene.turning import spins
+from clast.soundness.motion import MOST_TURN, MOST_WAY
 
 Floats = NDArray[np.float64]
 LOOKS = 500
 """How often a motion is asked for its velocity."""
-MOST_WAY = 0.5
-"""Longest way of a wall in one step, as a share of the smallest radius."""
-MOST_TURN = 0.5
-"""Largest turn of a wall in one step in rad."""
 
 
 def swift_walls(config: SceneConfig, radius: float, step: float, steps: int) -> list[str]:

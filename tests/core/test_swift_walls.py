@@ -11,7 +11,7 @@ from clast import Simulation, run_scene
 from clast.config.scene import SceneConfig, from_mapping
 from clast.errors import PluginError, RefusedError, RunError
 from clast.forecast import forecast
-from clast.scene.swift_walls import swift_walls
+from clast.soundness.swift_walls import swift_walls
 
 RADIUS = 1e-3
 
